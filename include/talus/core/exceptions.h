@@ -1,0 +1,44 @@
+#pragma once
+
+#include <deal.II/base/exceptions.h>
+
+#include <ostream>
+#include <string>
+
+namespace Talus
+{
+  /** Wrong input: the program ends with exit status 1 and the message alone. */
+  class InputError : public dealii::ExceptionBase
+  {
+  public:
+    explicit InputError(std::string message) : message(std::move(message)) {}
+    void print_info(std::ostream &out) const override { out << message << '\n'; }
+
+    const std::string message;
+  };
+
+  /**
+   * Wrong input that can be blamed on one entry of the parameter file. The
+   * program puts the file and line where that entry was set before the message.
+   */
+  class EntryError : public InputError
+  {
+  public:
+    EntryError(const std::string &section, const std::string &entry, std::string message) :
+      InputError(std::move(message)), section(section), entry(entry)
+    {
+    }
+
+    const std::string section, entry;
+  };
+
+  /** The run itself failed (diverged, a particle left the grid): exit status 2. */
+  class RunError : public dealii::ExceptionBase
+  {
+  public:
+    explicit RunError(std::string message) : message(std::move(message)) {}
+    void print_info(std::ostream &out) const override { out << message << '\n'; }
+
+    const std::string message;
+  };
+} // namespace Talus

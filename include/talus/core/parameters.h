@@ -1,0 +1,95 @@
+#pragma once
+
+#include <talus/core/exceptions.h>
+#include <talus/core/registry.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * A parameter file and the `--set` overrides, read in two passes.
+   *
+   * Constructing scans the text: every entry's value and where it was set.
+   * While objects are built they ask `choose()` and `names()` what to build
+   * next. Each object is a dealii::ParameterAcceptor, so when all of them exist
+   * the handler knows every entry that may be set, and `parse()` checks the file
+   * against it strictly. Errors name file, line, entry and remedy.
+   */
+  class Parameters
+  {
+  public:
+    struct Setting
+    {
+      std::string value;
+      std::string origin; // "file.prm:12" or "--set"
+    };
+
+    /** Reads `file_name`; `overrides` are "Section/Entry = value". Throws InputError. */
+    Parameters(const std::string &file_name, const std::vector<std::string> &overrides = {});
+
+    /** The same for a text in memory; for tests. */
+    static Parameters from_text(const std::string &text);
+
+    /** Declares a choice among what is registered in a kind and returns what the file chooses. */
+    template <class Interface>
+    std::string choose(const std::string &section, const std::string &entry, const std::string &default_value,
+                       const std::string &help);
+
+    /** The same among the names in `selection` ("a|b|c"). */
+    std::string choose_from(const std::string &section, const std::string &entry, const std::string &default_value,
+                            const std::string &selection, const std::string &help);
+
+    /** Builds the object that the file chooses; it reads `object_section`. */
+    template <class Interface>
+    std::unique_ptr<Interface> make(const std::string &section, const std::string &entry,
+                                    const std::string &default_value, const std::string &help);
+
+    /** Declares and returns the list of names of the objects in a section ("Bodies", ...). */
+    std::vector<std::string> names(const std::string &section, const std::string &help);
+
+    /** Checks every entry against what the objects declared, and sets their members. */
+    void parse();
+
+    /** The message of an error, with the place where its entry was set. */
+    std::string locate(const EntryError &error) const;
+
+    /** All entries of the chosen objects, with or without their help. */
+    void print(std::ostream &out, const bool with_help) const;
+
+  private:
+    Parameters() = default;
+    void              scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path);
+    void              add_override(const std::string &text);
+    [[noreturn]] void reject_unknown(const std::string &key, const Setting &setting) const;
+    const Setting    *find(const std::string &section, const std::string &entry) const;
+
+    std::map<std::string, Setting>     settings; // by "Section/Subsection/Entry"
+    std::map<std::string, std::string> sections; // where each was opened
+    std::string                        file_name;
+  };
+
+  /** A section and an entry as one key without a leading slash. */
+  std::string parameter_key(const std::string &section, const std::string &entry);
+
+  /** Among `candidates` the one most like `word`; empty when none is close. */
+  std::string closest(const std::string &word, const std::vector<std::string> &candidates);
+
+  template <class Interface>
+  std::string Parameters::choose(const std::string &section, const std::string &entry, const std::string &default_value,
+                                 const std::string &help)
+  {
+    return choose_from(section, entry, default_value, Registry<Interface>::get().selection(), help);
+  }
+
+  template <class Interface>
+  std::unique_ptr<Interface> Parameters::make(const std::string &section, const std::string &entry,
+                                              const std::string &default_value, const std::string &help)
+  {
+    return Registry<Interface>::get().make(choose<Interface>(section, entry, default_value, help), section);
+  }
+} // namespace Talus
