@@ -1,0 +1,75 @@
+#pragma once
+
+#include <talus/grid/lattice.h>
+#include <talus/grid/nodal_fields.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+
+namespace Talus
+{
+  /**
+   * The background grid: a box of equal cells, refined from a small coarse mesh
+   * and partitioned by p4est. A node is a vertex; its number is its degree of
+   * freedom in FE_Q(1), within a rank lexicographic, so that neighbours along x
+   * are neighbours in memory.
+   */
+  template <int dim>
+  class Grid : public dealii::ParameterAcceptor
+  {
+  public:
+    using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
+
+    Grid(const std::string &section, MPI_Comm communicator);
+
+    /**
+     * Builds triangulation, nodes, lattice and fields. `weight` estimates a cell's
+     * work (its number of particles); the ranks' shares are balanced by it.
+     */
+    void create(const std::function<unsigned int(const CellIterator &)> &weight);
+
+    /** Sets up the triangulation's extents alone; called by create(). */
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    void clear() { fields.clear(); }
+
+    /** Eqs. (20)-(21): v_i += dt f_i / m_i where m_i > `mass_floor`; elsewhere v_i = 0. */
+    void update_velocity(const double dt);
+
+    dealii::Point<dim> node_position(const unsigned int node) const;
+
+    /** Owned nodes on the faces of the box with number `boundary_id` (2 d: lower, 2 d + 1: upper face of axis d). */
+    std::vector<unsigned int> nodes_on_boundary(const unsigned int boundary_id) const;
+
+    /** Owned nodes in the closed box. */
+    std::vector<unsigned int> nodes_in_box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper) const;
+
+    const CellIterator &owned_cell(const unsigned int active_cell_index) const { return cells[active_cell_index]; }
+
+    MPI_Comm                                          communicator;
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    dealii::DoFHandler<dim>                           dof_handler;
+    Lattice<dim>                                      lattice;
+    NodalFields<dim>                                  fields;
+    std::vector<typename Lattice<dim>::Index>         node_index; // lattice index of each local node
+
+    /** Nodes of at most this mass [mass] are empty; the momentum they held is counted as lost. */
+    double                 mass_floor = 0;
+    dealii::Tensor<1, dim> lost_momentum;
+
+    dealii::Point<dim> lower, upper;
+
+  private:
+    void create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight);
+    void number_nodes();
+    void fill_tables();
+
+    dealii::FE_Q<dim>         fe;
+    std::vector<CellIterator> cells;
+
+    std::vector<double>       lower_corner, upper_corner, spacing;
+    std::vector<unsigned int> cell_counts;
+  };
+} // namespace Talus

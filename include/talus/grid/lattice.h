@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * The box grid as a regular lattice: where a point lies by arithmetic instead
+   * of a search, and which local node or cell sits at a lattice index.
+   *
+   * Node (I, J, K) is at origin + (I h_x, J h_y, K h_z), cell (I, J, K) spans
+   * nodes I and I+1 of each axis. The tables cover the bounding box of what this
+   * rank knows, padded so that the stencil of every particle in the domain can
+   * be looked up without a bounds check; what is not there is `missing`.
+   */
+  template <int dim>
+  struct Lattice
+  {
+    using Index = std::array<int, dim>;
+
+    static constexpr unsigned int missing = static_cast<unsigned int>(-1);
+    static constexpr int          padding = 3;
+
+    std::array<double, dim> origin, h, inverse_h;
+    Index                   n_cells;
+
+    // The tables' box: its first lattice index, its extent, and the step from one entry to the next.
+    Index first, extent, stride;
+
+    std::vector<unsigned int> node; // local index of the node at a lattice index
+    std::vector<unsigned int> cell; // active cell index of the *owned* cell there
+
+    /** Lattice coordinate of `x` along axis `d`: integer at nodes. */
+    double coordinate(const double x, const unsigned int d) const { return (x - origin[d]) * inverse_h[d]; }
+
+    double node_position(const int index, const unsigned int d) const { return origin[d] + index * h[d]; }
+
+    /** True where the lattice coordinate along `d` lies in the domain. */
+    bool is_inside(const double coordinate, const unsigned int d) const
+    {
+      return coordinate >= 0 && coordinate < n_cells[d];
+    }
+
+    bool is_in_table(const Index &index) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (index[d] < first[d] || index[d] >= first[d] + extent[d])
+          return false;
+      return true;
+    }
+
+    /** Position of a lattice index in the tables. */
+    int table_index(const Index &index) const
+    {
+      int position = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        position += (index[d] - first[d]) * stride[d];
+      return position;
+    }
+
+    double smallest_spacing() const
+    {
+      double smallest = h[0];
+      for (const double spacing : h)
+        smallest = std::min(smallest, spacing);
+      return smallest;
+    }
+
+    /** Sets the box of the tables to [lower, upper] plus padding and clears them. */
+    void resize_tables(const Index &lower, const Index &upper)
+    {
+      int size = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        first[d]  = lower[d] - padding;
+        extent[d] = upper[d] - lower[d] + 1 + 2 * padding;
+        stride[d] = size;
+        size *= extent[d];
+      }
+      node.assign(size, missing);
+      cell.assign(size, missing);
+    }
+
+    /**
+     * For each lattice index b of the tables: whether all nodes of the domain in
+     * [b, b + n - 1] of every axis are known to this rank, so that a particle with
+     * this stencil can be kept here.
+     */
+    std::vector<char> coverage(const int n) const;
+  };
+} // namespace Talus

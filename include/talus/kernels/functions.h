@@ -1,0 +1,115 @@
+#pragma once
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace Talus
+{
+  /** Linear hat, FE_Q(1): 1 - |r| for |r| < 1. */
+  struct LinearFunction
+  {
+    static constexpr unsigned int n              = 2;
+    static constexpr double       shift          = 0;
+    static constexpr double       boundary_scale = 1;
+
+    double support() const { return 1; }
+    void   add_parameters(dealii::ParameterAcceptor &) {}
+    void   evaluate(const double s, double *weight, double *derivative) const
+    {
+      weight[0]     = 1 - s;
+      weight[1]     = s;
+      derivative[0] = -1;
+      derivative[1] = 1;
+    }
+  };
+
+  /** Quadratic B-spline, Eq. (51): support 3/2. */
+  struct QuadraticBSpline
+  {
+    static constexpr unsigned int n              = 3;
+    static constexpr double       shift          = 0.5;
+    static constexpr double       boundary_scale = 4. / 3.;
+
+    double support() const { return 1.5; }
+    void   add_parameters(dealii::ParameterAcceptor &) {}
+    void   evaluate(const double s, double *weight, double *derivative) const
+    {
+      // s in [1/2, 3/2): the middle node is the nearest.
+      weight[0]     = 0.5 * (1.5 - s) * (1.5 - s);
+      weight[1]     = 0.75 - (s - 1) * (s - 1);
+      weight[2]     = 0.5 * (s - 0.5) * (s - 0.5);
+      derivative[0] = s - 1.5;
+      derivative[1] = -2 * (s - 1);
+      derivative[2] = s - 0.5;
+    }
+  };
+
+  /** Cubic B-spline: 2/3 - r^2 + |r|^3 / 2 for |r| < 1, (2 - |r|)^3 / 6 up to the support 2. */
+  struct CubicBSpline
+  {
+    static constexpr unsigned int n              = 4;
+    static constexpr double       shift          = 1;
+    static constexpr double       boundary_scale = 1.5;
+
+    double support() const { return 2; }
+    void   add_parameters(dealii::ParameterAcceptor &) {}
+    void   evaluate(const double s, double *weight, double *derivative) const
+    {
+      // t in [0, 1): distance from the second node.
+      const double t = s - 1, u = 1 - t;
+      weight[0]     = u * u * u / 6;
+      weight[1]     = 2. / 3. - t * t + t * t * t / 2;
+      weight[2]     = 2. / 3. - u * u + u * u * u / 2;
+      weight[3]     = t * t * t / 6;
+      derivative[0] = -u * u / 2;
+      derivative[1] = t * (1.5 * t - 2);
+      derivative[2] = -u * (1.5 * u - 2);
+      derivative[3] = t * t / 2;
+    }
+  };
+
+  /**
+   * uGIMP, Bardenhagen & Kober (2004): the hat averaged over a particle's
+   * undeformed box of half length lp [h].
+   */
+  struct GimpFunction
+  {
+    static constexpr unsigned int n              = 3;
+    static constexpr double       shift          = 0.5;
+    static constexpr double       boundary_scale = 0;
+
+    double lp = 0.25;
+
+    double support() const { return 1 + lp; }
+    void   add_parameters(dealii::ParameterAcceptor &object)
+    {
+      object.add_parameter("Half length", lp,
+                           "Half edge of a particle's box in units of the spacing [1]: 1 / (2 n) for n particles per "
+                           "cell and direction.",
+                           object.prm, dealii::Patterns::Double(1e-3, 0.5));
+    }
+    void evaluate(const double s, double *weight, double *derivative) const
+    {
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        const double r = s - k, d = r < 0 ? -r : r, sign = r < 0 ? -1 : 1;
+        if (d < lp)
+        {
+          weight[k]     = 1 - (d * d + lp * lp) / (2 * lp);
+          derivative[k] = -r / lp;
+        }
+        else if (d < 1 - lp)
+        {
+          weight[k]     = 1 - d;
+          derivative[k] = -sign;
+        }
+        else if (d < 1 + lp)
+        {
+          weight[k]     = (1 + lp - d) * (1 + lp - d) / (4 * lp);
+          derivative[k] = -sign * (1 + lp - d) / (2 * lp);
+        }
+        else
+          weight[k] = derivative[k] = 0;
+      }
+    }
+  };
+} // namespace Talus

@@ -1,0 +1,21 @@
+#pragma once
+
+namespace Talus
+{
+  /**
+   * The nodes a particle talks to, each with weight phi_ip [1], gradient
+   * grad phi_ip [1/length] and offset x_i - x_p [length]. This is all that
+   * transfers know of kernels.
+   */
+  template <int dim>
+  struct Stencil
+  {
+    static constexpr unsigned int capacity = dim == 2 ? 16 : 64;
+
+    unsigned int size;
+    unsigned int node[capacity]; // local node numbers
+    double       weight[capacity];
+    double       offset[dim][capacity];
+    double       gradient[dim][capacity];
+  };
+} // namespace Talus

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <talus/kernels/stencil.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+
+namespace Talus
+{
+  /** One axis of a lattice stencil before the product over the axes is taken. */
+  struct Axis
+  {
+    static constexpr unsigned int capacity = 4;
+
+    unsigned int begin, end;           // the nodes of the domain among the stencil's: begin <= k < end
+    double       weight[capacity];     // [1]
+    double       derivative[capacity]; // [1/length]
+    double       offset[capacity];     // x_i - x_p [length]
+    bool         is_truncated;         // a node beyond the domain has non-zero weight
+    bool         has_lower_boundary;   // node `begin` lies on the domain's lower face
+    bool         has_upper_boundary;   // node `end - 1` lies on its upper face
+    double       boundary_scale;       // Steffen's factor of the kernel at the boundary node
+  };
+
+  /**
+   * What happens to a kernel near the edge of the domain, where nodes of its
+   * support are missing. It wraps any kernel: it may change the factors of an
+   * axis, or the finished stencil. Only particles near the edge get here.
+   */
+  template <int dim>
+  class Treatment : public dealii::ParameterAcceptor
+  {
+  public:
+    using dealii::ParameterAcceptor::ParameterAcceptor;
+
+    /** Axes of which at least one reaches a face of the domain. */
+    virtual void correct_axes(std::array<Axis, dim> &) const {}
+
+    /** Stencil of which at least one node is missing. `inverse_h` makes offsets of order one. */
+    virtual void correct_stencil(Stencil<dim> &, const std::array<double, dim> & /*inverse_h*/) const {}
+
+    /** True when complete stencils go through correct_stencil() as well. */
+    virtual bool is_everywhere() const { return false; }
+
+    /** True when the treatment needs boundary_scale, which not every kernel has. */
+    virtual bool needs_boundary_scale() const { return false; }
+  };
+} // namespace Talus

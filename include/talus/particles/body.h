@@ -1,0 +1,41 @@
+#pragma once
+
+#include <talus/core/function.h>
+#include <talus/materials/material.h>
+#include <talus/particles/shape.h>
+#include <talus/particles/working_set.h>
+
+namespace Talus
+{
+  /** One body: its shape, its material and the state in which it starts. */
+  template <int dim>
+  class Body : public dealii::ParameterAcceptor
+  {
+  public:
+    Body(Parameters &parameters, const std::string &name, const std::vector<std::string> &material_names);
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    /** Writes the initial state of a particle at `x` into its properties, one for each column of `set`. */
+    void initialize(const dealii::Point<dim> &x, const double volume, const Material &material,
+                    const WorkingSet<dim> &set, std::vector<double> &properties) const;
+
+    std::string                 name;
+    unsigned int                material; // index
+    std::unique_ptr<Shape<dim>> shape;
+    unsigned int                first_id = 0;
+
+  private:
+    /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */
+    std::array<double, 6> initial_stress(const dealii::Point<dim> &x, const Material &material) const;
+
+    ParsedVector<dim>   velocity;
+    std::string         velocity_text;
+    std::vector<double> velocity_gradient;
+
+    std::string         stress_kind;
+    std::vector<double> uniform_stress;
+    double              unit_weight = 0, surface_level = 0, rest_stress_ratio = -1;
+    std::string         vertical_axis = dim == 2 ? "y" : "z";
+  };
+} // namespace Talus

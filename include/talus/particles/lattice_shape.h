@@ -1,0 +1,40 @@
+#pragma once
+
+#include <talus/particles/shape.h>
+
+namespace Talus
+{
+  /**
+   * A shape filled by a lattice: n points per cell and direction at the middle
+   * of equal boxes between the corners of its bounding box, shifted and jittered
+   * on request. A point's index is its lexicographic lattice index and its jitter
+   * a hash of (seed, index, axis), so that neither depends on the number of ranks.
+   */
+  template <int dim>
+  class LatticeShape : public Shape<dim>
+  {
+  public:
+    explicit LatticeShape(const std::string &section);
+
+    void         create(const std::array<double, dim> &h) override;
+    void         visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
+    unsigned int n_indices() const override;
+
+    virtual bool contains(const dealii::Point<dim> &x) const = 0;
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+  private:
+    unsigned int        points_per_cell = 2;
+    std::vector<double> offset          = std::vector<double>(dim, 0.);
+    double              jitter          = 0;
+    unsigned int        seed            = 1;
+
+    dealii::Point<dim>      lower;
+    std::array<double, dim> spacing;
+    std::array<int, dim>    counts;
+  };
+
+  /** A number in [-1, 1) that depends on nothing but its arguments. */
+  double hashed_jitter(const unsigned int seed, const unsigned int index, const unsigned int axis);
+} // namespace Talus

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <talus/grid/grid.h>
+#include <talus/particles/body.h>
+#include <talus/particles/working_set.h>
+
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/particles/particle_handler.h>
+
+namespace Talus
+{
+  /**
+   * All particles. deal.II's ParticleHandler is their *home*: there they are
+   * created, and from there they move to other ranks. The step runs on the
+   * *working set*. synchronise() is the one place where the two meet.
+   */
+  template <int dim>
+  class Particles : public WorkingSet<dim>
+  {
+  public:
+    /**
+     * Creates the particles of all bodies in the cells this rank owns. Throws
+     * EntryError for an empty body and for one that does not lie in the grid.
+     */
+    void create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                const std::vector<std::unique_ptr<Material>> &materials);
+
+    /** Number of particles that the bodies put into a cell; before create(). */
+    static unsigned int count(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                              const typename Grid<dim>::CellIterator &cell);
+
+    /**
+     * Tells how far a particle may stray: its stencil is the `n` nodes per axis
+     * from floor(lattice coordinate - shift), and a rank keeps a particle as long
+     * as it knows all of them.
+     */
+    void set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift);
+
+    /**
+     * Finds out whether all particles can stay with this rank, and whether one has
+     * left the grid. What it finds is acted on where the ranks meet next.
+     */
+    void relocate();
+
+    /** Sends particles to the ranks that own their cells and restores the canonical order. Collective. */
+    void synchronise();
+
+    static constexpr unsigned int none = static_cast<unsigned int>(-1);
+
+    bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
+    unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
+
+    std::uint64_t            n_global = 0;
+    std::vector<std::string> body_names;
+
+  private:
+    void store(); // working set -> home
+    void load();  // home -> working set, in canonical order
+
+    const Grid<dim>                                         *grid = nullptr;
+    std::unique_ptr<dealii::MappingCartesian<dim>>           mapping;
+    std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
+    std::vector<unsigned int>                                slot; // of each particle of the home, in its order
+
+    std::vector<unsigned int> body_begin; // first id of each body
+    std::vector<unsigned int> body_material;
+
+    std::vector<char> coverage;
+    double            stencil_shift = 0;
+  };
+} // namespace Talus

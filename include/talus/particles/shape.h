@@ -1,0 +1,37 @@
+#pragma once
+
+#include <talus/core/parameters.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <functional>
+
+namespace Talus
+{
+  /**
+   * The region that a body fills, and the points with which it is filled: a
+   * regular lattice between its bounding box's corners, of which those inside the
+   * region become particles, or a list.
+   */
+  template <int dim>
+  class Shape : public dealii::ParameterAcceptor
+  {
+  public:
+    using Point = dealii::Point<dim>;
+    /** Receives the index of a point within its body, its position and its volume. */
+    using Visitor = std::function<void(const unsigned int index, const Point &x, const double volume)>;
+
+    using dealii::ParameterAcceptor::ParameterAcceptor;
+
+    /** Prepares the points; `h` is the grid's spacing. Throws EntryError for an impossible shape. */
+    virtual void create(const std::array<double, dim> &h) = 0;
+
+    virtual dealii::BoundingBox<dim> bounding_box() const = 0;
+
+    /** Visits all points in `box`; points close to it may be visited too. */
+    virtual void visit(const dealii::BoundingBox<dim> &box, const Visitor &visitor) const = 0;
+
+    /** All indices are below this number. */
+    virtual unsigned int n_indices() const = 0;
+  };
+} // namespace Talus

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/types.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * The particles of this rank as the step sees them: one array for each number
+   * of each field, in canonical order (material, cell, id).
+   */
+  template <int dim>
+  class WorkingSet
+  {
+  public:
+    static constexpr unsigned int n_stress = dim == 2 ? 4 : 6; // xx, yy, zz, xy (, xz, yz); plane strain in 2D
+
+    /** A named quantity with its components in consecutive columns. */
+    struct Field
+    {
+      std::string         name;
+      unsigned int        first, n_components;
+      std::vector<double> initial; // value of a new particle
+    };
+
+    WorkingSet();
+
+    /** Adds a field; the same name gives the same field. Before the first particle exists. */
+    unsigned int add_field(const std::string &name, const unsigned int n_components, const double initial = 0.);
+
+    unsigned int size() const { return id.size(); }
+    void         resize(const unsigned int n_particles);
+
+    double       *column(const unsigned int c) { return columns[c].data(); }
+    const double *column(const unsigned int c) const { return columns[c].data(); }
+    double       *component(const unsigned int field, const unsigned int c) { return column(fields[field].first + c); }
+    const double *component(const unsigned int field, const unsigned int c) const
+    {
+      return column(fields[field].first + c);
+    }
+    unsigned int n_columns() const { return columns.size(); }
+
+    /** The arrays of all n components of a field. */
+    template <unsigned int n>
+    std::array<double *, n> components(const unsigned int field)
+    {
+      std::array<double *, n> arrays;
+      for (unsigned int c = 0; c < n; ++c)
+        arrays[c] = component(field, c);
+      return arrays;
+    }
+    template <unsigned int n>
+    std::array<const double *, n> components(const unsigned int field) const
+    {
+      std::array<const double *, n> arrays;
+      for (unsigned int c = 0; c < n; ++c)
+        arrays[c] = component(field, c);
+      return arrays;
+    }
+
+    // Fields that every run has; tensors row by row.
+    unsigned int position, velocity, grad_v, F, stress, mass, volume, initial_position;
+
+    std::vector<Field>                         fields;
+    std::vector<dealii::types::particle_index> id;
+    std::vector<unsigned short>                body;
+
+    /** Particles material_begin[m] .. material_begin[m + 1] - 1 are of material m. */
+    std::vector<unsigned int> material_begin;
+
+  private:
+    std::vector<dealii::AlignedVector<double>> columns;
+  };
+} // namespace Talus

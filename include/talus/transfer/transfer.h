@@ -1,0 +1,37 @@
+#pragma once
+
+#include <talus/core/function.h>
+#include <talus/grid/grid.h>
+#include <talus/kernels/kernel.h>
+#include <talus/particles/working_set.h>
+
+namespace Talus
+{
+  /**
+   * Carries mass, momentum and force to the nodes and motion back to the
+   * particles. A transfer owns its passes over the particles.
+   */
+  template <int dim>
+  class Transfer : public dealii::ParameterAcceptor
+  {
+  public:
+    using dealii::ParameterAcceptor::ParameterAcceptor;
+
+    /** Adds what the transfer stores on particles beyond the common fields. */
+    virtual void add_fields(WorkingSet<dim> &) {}
+
+    /** Makes the added fields consistent with the initial velocity gradient. */
+    virtual void initialize(const Kernel<dim> &, WorkingSet<dim> &) const {}
+
+    /** Eqs. (11)-(16): adds m_i, m_i v_i and f_i of this rank's particles to the nodes, copies included. */
+    virtual void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
+                                  const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) const = 0;
+
+    /** Eqs. (22)-(26), (31): new velocity, position, velocity gradient and what the transfer stores. */
+    virtual void grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
+                                  WorkingSet<dim> &particles) const = 0;
+
+    /** sum_i phi_ip v_i (x) (x_i - x_p) of a particle where the transfer keeps it: its share of angular momentum. */
+    virtual dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &, const unsigned int /*p*/) const { return {}; }
+  };
+} // namespace Talus

@@ -1,0 +1,64 @@
+#include <talus/boundary/condition.h>
+#include <talus/core/exceptions.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Condition<dim>::Condition(const std::string &section) : ParameterAcceptor(section)
+  {
+    add_parameter("Boundary ids", boundary_ids,
+                  "Faces of the grid's box: 0, 1 are the lower and upper face in x, 2, 3 in y, 4, 5 in z.", prm,
+                  Patterns::List(Patterns::Integer(0, 2 * dim - 1), 0, 2 * dim));
+    add_parameter("Lower corner", lower, "With 'Upper corner': all nodes in this box [length].", prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Upper corner", upper, "With 'Lower corner': all nodes in this box [length].", prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
+  }
+
+  template <int dim>
+  void Condition<dim>::parse_parameters(ParameterHandler &)
+  {
+    if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
+      throw EntryError(get_section_name(), "Lower corner",
+                       "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+    if (boundary_ids.empty() && lower.empty())
+      throw EntryError(get_section_name(), "Boundary ids",
+                       "the condition acts nowhere. Give boundary ids or the corners of a box of nodes.");
+  }
+
+  template <int dim>
+  void Condition<dim>::attach(const Grid<dim> &grid)
+  {
+    nodes.clear();
+    for (const unsigned int id : boundary_ids)
+      nodes.push_back(grid.nodes_on_boundary(id));
+    if (!lower.empty())
+    {
+      Point<dim> a, b;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        a[d] = lower[d];
+        b[d] = upper[d];
+      }
+      nodes.push_back(grid.nodes_in_box(a, b));
+      if (Utilities::MPI::sum<unsigned int>(nodes.back().size(), grid.communicator) == 0)
+        throw EntryError(get_section_name(), "Lower corner",
+                         "no node of the grid lies in this box. Make it at least a spacing wide, "
+                         "or move it so that it holds the nodes meant.");
+    }
+  }
+
+  template <int dim>
+  void Condition<dim>::apply(const double time, const double dt, Grid<dim> &grid)
+  {
+    this->dt = dt;
+    reaction = 0;
+    work     = 0;
+    prescribe(time, grid);
+  }
+
+  template class Condition<2>;
+  template class Condition<3>;
+} // namespace Talus

@@ -1,0 +1,302 @@
+#include <talus/core/exceptions.h>
+#include <talus/grid/grid.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    typename Lattice<dim>::Index to_index(const Lattice<dim> &lattice, const Point<dim> &x, const double shift)
+    {
+      typename Lattice<dim>::Index index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = static_cast<int>(std::floor(lattice.coordinate(x[d], d) + shift));
+      return index;
+    }
+
+    /** The largest power of two that divides all counts; p4est refines this often from the coarse mesh. */
+    template <std::size_t dim>
+    unsigned int common_refinements(const std::array<int, dim> &counts)
+    {
+      int common = 0;
+      for (const int count : counts)
+        common = std::gcd(common, count);
+      unsigned int refinements = 0;
+      while (common % 2 == 0)
+      {
+        common /= 2;
+        ++refinements;
+      }
+      return refinements;
+    }
+  } // namespace
+
+  template <int dim>
+  Grid<dim>::Grid(const std::string &section, MPI_Comm communicator) :
+    ParameterAcceptor(section), communicator(communicator), triangulation(communicator), dof_handler(triangulation),
+    fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
+  {
+    const Patterns::List numbers(Patterns::Double(), dim, dim);
+    add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", prm,
+                  numbers);
+    add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", prm,
+                  numbers);
+    add_parameter("Spacing", spacing,
+                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", prm,
+                  Patterns::List(Patterns::Double(0), 0, dim));
+    add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", prm,
+                  Patterns::List(Patterns::Integer(1), 0, dim));
+  }
+
+  template <int dim>
+  void Grid<dim>::parse_parameters(ParameterHandler &)
+  {
+    const std::string &section = get_section_name();
+    if (spacing.empty() == cell_counts.empty())
+      throw EntryError(section, "Spacing", "give either 'Spacing' or 'Cells', and not both.");
+    if (!spacing.empty() && spacing.size() != 1 && spacing.size() != dim)
+      throw EntryError(section, "Spacing", "give one number or " + std::to_string(dim) + ".");
+    if (spacing.empty() && cell_counts.size() != dim)
+      throw EntryError(section, "Cells", "give " + std::to_string(dim) + " numbers.");
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double length = upper_corner[d] - lower_corner[d];
+      lower[d]            = lower_corner[d];
+      upper[d]            = upper_corner[d];
+      if (!(length > 0))
+        throw EntryError(section, "Upper corner", "it must lie above the lower corner in every direction.");
+      if (!spacing.empty())
+      {
+        const double wanted = spacing.size() == 1 ? spacing[0] : spacing[d];
+        if (!(wanted > 0))
+          throw EntryError(section, "Spacing", "it must be positive.");
+        const double count = std::round(length / wanted);
+        if (count < 1 || std::abs(count * wanted - length) > 1e-6 * wanted)
+          throw EntryError(section, "Spacing",
+                           "the box is " + std::to_string(length / wanted) + " spacings long in direction " +
+                             std::string(1, "xyz"[d]) + ". Move a corner so that it becomes a whole number.");
+        lattice.n_cells[d] = static_cast<int>(count);
+      }
+      else
+        lattice.n_cells[d] = cell_counts[d];
+      lattice.origin[d]    = lower[d];
+      lattice.h[d]         = length / lattice.n_cells[d];
+      lattice.inverse_h[d] = lattice.n_cells[d] / length;
+    }
+  }
+
+  template <int dim>
+  void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight)
+  {
+    create_triangulation(weight);
+    number_nodes();
+    fill_tables();
+  }
+
+  template <int dim>
+  void Grid<dim>::create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight)
+  {
+    const unsigned int        refinements = common_refinements(lattice.n_cells);
+    std::vector<unsigned int> coarse_counts(dim);
+    double                    n_coarse = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      coarse_counts[d] = lattice.n_cells[d] >> refinements;
+      n_coarse *= coarse_counts[d];
+    }
+    if (n_coarse > 1e5 && Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      std::cerr << "Warning: every rank stores a coarse mesh of " << n_coarse
+                << " cells. Cell counts with a large common power of two avoid that, for example";
+      for (const int count : lattice.n_cells)
+        std::cerr << ' ' << (count + 8) / 16 * 16;
+      std::cerr << ".\n";
+    }
+    GridGenerator::subdivided_hyper_rectangle(triangulation, coarse_counts, lower, upper, true);
+    triangulation.refine_global(refinements);
+
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+    {
+      const auto connection = triangulation.signals.weight.connect([&](const auto &cell, const auto) { return 1 + weight(CellIterator(cell)); });
+      triangulation.repartition();
+      connection.disconnect();
+    }
+    cells.assign(triangulation.n_active_cells(), CellIterator());
+    for (const auto &cell : triangulation.active_cell_iterators())
+      cells[cell->active_cell_index()] = cell;
+  }
+
+  template <int dim>
+  void Grid<dim>::number_nodes()
+  {
+    dof_handler.distribute_dofs(fe);
+
+    // Lexicographic order of the nodes this rank owns.
+    std::vector<std::pair<std::array<int, dim>, types::global_dof_index>> owned;
+    const IndexSet                                                        before = dof_handler.locally_owned_dofs();
+    std::vector<bool>                                                     is_seen(before.n_elements(), false);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const auto dof = cell->vertex_dof_index(v, 0);
+          if (!before.is_element(dof) || is_seen[before.index_within_set(dof)])
+            continue;
+          is_seen[before.index_within_set(dof)] = true;
+          auto index                            = to_index(lattice, cell->vertex(v), 0.5);
+          std::reverse(index.begin(), index.end());
+          owned.emplace_back(index, dof);
+        }
+    std::sort(owned.begin(), owned.end());
+    std::vector<types::global_dof_index> numbers(owned.size());
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      numbers[before.index_within_set(owned[i].second)] = before.nth_index_in_set(i);
+    dof_handler.renumber_dofs(numbers);
+  }
+
+  template <int dim>
+  void Grid<dim>::fill_tables()
+  {
+    const IndexSet owned = dof_handler.locally_owned_dofs();
+    IndexSet       relevant;
+    DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    fields.reinit(owned, relevant, communicator);
+
+    // The vector's local order: owned nodes, then the others by global number.
+    relevant.subtract_set(owned);
+    const auto local = [&](const types::global_dof_index dof) {
+      return owned.is_element(dof) ? owned.index_within_set(dof) : owned.n_elements() + relevant.index_within_set(dof);
+    };
+
+    typename Lattice<dim>::Index first, last;
+    first.fill(std::numeric_limits<int>::max());
+    last.fill(std::numeric_limits<int>::min());
+    node_index.resize(owned.n_elements() + relevant.n_elements());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const auto index                                = to_index(lattice, cell->vertex(v), 0.5);
+          node_index[local(cell->vertex_dof_index(v, 0))] = index;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            first[d] = std::min(first[d], index[d]);
+            last[d]  = std::max(last[d], index[d]);
+          }
+        }
+    if (node_index.empty()) // a rank without cells
+      first.fill(0), last.fill(0);
+
+    lattice.resize_tables(first, last);
+    for (unsigned int node = 0; node < node_index.size(); ++node)
+      lattice.node[lattice.table_index(node_index[node])] = node;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        lattice.cell[lattice.table_index(to_index(lattice, cell->center(), 0.))] = cell->active_cell_index();
+  }
+
+  template <int dim>
+  void Grid<dim>::update_velocity(const double dt)
+  {
+    using Fields  = NodalFields<dim>;
+    lost_momentum = 0;
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+    {
+      double      *values = fields[i];
+      const double m      = values[Fields::mass];
+      if (m > mass_floor)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double v                   = values[Fields::momentum + d] / m;
+          const double dv                  = dt * values[Fields::force + d] / m;
+          values[Fields::old_velocity + d] = v;
+          values[Fields::velocity + d]     = v + dv;
+        }
+      else
+        // Empty nodes keep v = 0: dividing by m_i = 0 would spread NaN.
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lost_momentum[d] += values[Fields::momentum + d];
+          values[Fields::velocity + d] = values[Fields::old_velocity + d] = 0;
+        }
+    }
+  }
+
+  template <int dim>
+  Point<dim> Grid<dim>::node_position(const unsigned int node) const
+  {
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = lattice.node_position(node_index[node][d], d);
+    return x;
+  }
+
+  template <int dim>
+  std::vector<unsigned int> Grid<dim>::nodes_on_boundary(const unsigned int boundary_id) const
+  {
+    const unsigned int        axis  = boundary_id / 2;
+    const int                 index = boundary_id % 2 == 0 ? 0 : lattice.n_cells[axis];
+    std::vector<unsigned int> nodes;
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+      if (node_index[i][axis] == index)
+        nodes.push_back(i);
+    return nodes;
+  }
+
+  template <int dim>
+  std::vector<unsigned int> Grid<dim>::nodes_in_box(const Point<dim> &lower, const Point<dim> &upper) const
+  {
+    std::vector<unsigned int> nodes;
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+    {
+      const Point<dim> x         = node_position(i);
+      bool             is_inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_inside = is_inside && x[d] >= lower[d] && x[d] <= upper[d];
+      if (is_inside)
+        nodes.push_back(i);
+    }
+    return nodes;
+  }
+
+  template <int dim>
+  std::vector<char> Lattice<dim>::coverage(const int n) const
+  {
+    std::vector<char> is_covered(node.size(), 0);
+    const int         n_stencil = static_cast<int>(std::pow(n, dim) + .5);
+    for (int entry = 0; entry < static_cast<int>(node.size()); ++entry)
+    {
+      Index base;
+      for (unsigned int d = 0; d < dim; ++d)
+        base[d] = first[d] + entry / stride[d] % extent[d];
+      bool is_known = true;
+      for (int k = 0; k < n_stencil && is_known; ++k)
+      {
+        Index index;
+        bool  is_in_domain = true;
+        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
+        {
+          index[d]     = base[d] + rest % n;
+          is_in_domain = is_in_domain && index[d] >= 0 && index[d] <= n_cells[d];
+        }
+        if (is_in_domain)
+          is_known = is_in_table(index) && node[table_index(index)] != missing;
+      }
+      is_covered[entry] = is_known;
+    }
+    return is_covered;
+  }
+
+  template struct Lattice<2>;
+  template struct Lattice<3>;
+  template class Grid<2>;
+  template class Grid<3>;
+} // namespace Talus

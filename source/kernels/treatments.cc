@@ -1,0 +1,190 @@
+#include <talus/core/registry.h>
+#include <talus/kernels/moment_matrix.h>
+#include <talus/kernels/treatment.h>
+
+namespace Talus
+{
+  namespace
+  {
+    /** Missing nodes are left out and nothing else happens. */
+    template <int dim>
+    class Truncated : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+    };
+
+    /**
+     * Steffen, Kirby & Berzins (2008), Fig. 3(a): per axis the boundary node's
+     * function is scaled to one at the boundary, and the next node takes what is
+     * missing to a partition of unity. Linear fields are not reproduced.
+     */
+    template <int dim>
+    class Steffen : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+
+      void correct_axes(std::array<Axis, dim> &axes) const override
+      {
+        for (Axis &axis : axes)
+        {
+          if (axis.has_lower_boundary)
+            adjust(axis, axis.begin, axis.begin + 1);
+          if (axis.has_upper_boundary)
+            adjust(axis, axis.end - 1, axis.end - 2);
+        }
+      }
+      bool needs_boundary_scale() const override { return true; }
+
+    private:
+      static void adjust(Axis &axis, const unsigned int boundary, const unsigned int next)
+      {
+        axis.weight[boundary] *= axis.boundary_scale;
+        axis.derivative[boundary] *= axis.boundary_scale;
+        axis.weight[next]     = 1;
+        axis.derivative[next] = 0;
+        for (unsigned int k = axis.begin; k < axis.end; ++k)
+          if (k != next)
+          {
+            axis.weight[next] -= axis.weight[k];
+            axis.derivative[next] -= axis.derivative[k];
+          }
+      }
+    };
+
+    /** Weighted least squares, Eqs. (53)-(63), where a node of the support is missing. */
+    template <int dim>
+    class WeightedLeastSquares : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+
+      void correct_stencil(Stencil<dim> &stencil, const std::array<double, dim> &inverse_h) const override
+      {
+        using Moments      = MomentMatrix<dim>;
+        const auto inverse = Moments::inverse(Moments::moments(stencil, stencil.weight, inverse_h));
+        for (unsigned int k = 0; k < stencil.size; ++k)
+        {
+          const auto   P      = Moments::basis(stencil, k, inverse_h);
+          const double weight = stencil.weight[k];
+          double       C[dim + 1];
+          for (unsigned int i = 0; i <= dim; ++i)
+          {
+            C[i] = 0;
+            for (unsigned int j = 0; j <= dim; ++j)
+              C[i] += inverse[i][j] * P[j];
+          }
+          stencil.weight[k] = C[0] * weight; // Eq. (58): C_1 + C_2 . offset
+          for (unsigned int d = 0; d < dim; ++d)
+            stencil.gradient[d][k] = C[d + 1] * inverse_h[d] * weight; // Eq. (62): C_2 + C_3 . offset
+        }
+      }
+    };
+
+    /** The same for all particles: with TPIC this is MLS-MPM, Fig. 3(b). */
+    template <int dim>
+    class WeightedLeastSquaresEverywhere : public WeightedLeastSquares<dim>
+    {
+    public:
+      using WeightedLeastSquares<dim>::WeightedLeastSquares;
+      bool is_everywhere() const override { return true; }
+    };
+
+    /** Weighted least squares on each truncated axis alone: hardly any negative weights in corners. */
+    template <int dim>
+    class SeparableWeightedLeastSquares : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+
+      void correct_axes(std::array<Axis, dim> &axes) const override
+      {
+        for (Axis &axis : axes)
+          if (axis.is_truncated)
+          {
+            double m0 = 0, m1 = 0, m2 = 0;
+            for (unsigned int k = axis.begin; k < axis.end; ++k)
+            {
+              m0 += axis.weight[k];
+              m1 += axis.weight[k] * axis.offset[k];
+              m2 += axis.weight[k] * axis.offset[k] * axis.offset[k];
+            }
+            const double determinant = m0 * m2 - m1 * m1;
+            for (unsigned int k = axis.begin; k < axis.end; ++k)
+            {
+              axis.derivative[k] = axis.weight[k] * (m0 * axis.offset[k] - m1) / determinant;
+              axis.weight[k] *= (m2 - m1 * axis.offset[k]) / determinant;
+            }
+          }
+      }
+    };
+
+    /** Moving least squares, Fig. 3(c): the derivative of M(x)^{-1} P is taken as well. */
+    template <int dim>
+    class MovingLeastSquares : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+
+      void correct_stencil(Stencil<dim> &stencil, const std::array<double, dim> &inverse_h) const override
+      {
+        // phi_i = w_i a . P_i with M a = e_1; so a_,d = -M^-1 M_,d a, and P_i,d = -e_d / h.
+        using Moments                  = MomentMatrix<dim>;
+        constexpr unsigned int n       = dim + 1;
+        const auto             M       = Moments::moments(stencil, stencil.weight, inverse_h);
+        const auto             inverse = Moments::inverse(M);
+        double                 a[n], da[dim][n];
+        for (unsigned int i = 0; i < n; ++i)
+          a[i] = inverse[i][0];
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          // M_,d = sum w_,d P P^T + w (P_,d P^T + P P_,d^T)
+          auto dM = Moments::moments(stencil, stencil.gradient[d], inverse_h);
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            dM[d + 1][i] -= inverse_h[d] * M[0][i];
+            dM[i][d + 1] -= inverse_h[d] * M[i][0];
+          }
+          double dM_a[n] = {};
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              dM_a[i] += dM[i][j] * a[j];
+          for (unsigned int i = 0; i < n; ++i)
+          {
+            da[d][i] = 0;
+            for (unsigned int j = 0; j < n; ++j)
+              da[d][i] -= inverse[i][j] * dM_a[j];
+          }
+        }
+        for (unsigned int k = 0; k < stencil.size; ++k)
+        {
+          const auto P   = Moments::basis(stencil, k, inverse_h);
+          double     P_a = 0;
+          for (unsigned int i = 0; i < n; ++i)
+            P_a += P[i] * a[i];
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            double P_da = 0;
+            for (unsigned int i = 0; i < n; ++i)
+              P_da += P[i] * da[d][i];
+            stencil.gradient[d][k] =
+              stencil.gradient[d][k] * P_a + stencil.weight[k] * (P_da - inverse_h[d] * a[d + 1]);
+          }
+          stencil.weight[k] *= P_a;
+        }
+      }
+    };
+
+    const RegisterDimensions<Treatment, Truncated> none("none", "missing nodes are left out");
+    const RegisterDimensions<Treatment, Steffen>   steffen(
+        "Steffen", "modified B-splines at the boundary (partition of unity only)");
+    const RegisterDimensions<Treatment, WeightedLeastSquares>           wls("WLS",
+                                                                            "weighted least squares where nodes are missing");
+    const RegisterDimensions<Treatment, WeightedLeastSquaresEverywhere> everywhere(
+      "WLS everywhere", "weighted least squares for all particles: MLS-MPM with TPIC");
+    const RegisterDimensions<Treatment, SeparableWeightedLeastSquares> separable(
+      "WLS separable", "weighted least squares on each truncated axis alone");
+    const RegisterDimensions<Treatment, MovingLeastSquares> mls("MLS", "moving least squares where nodes are missing");
+  } // namespace
+} // namespace Talus

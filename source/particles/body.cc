@@ -1,0 +1,110 @@
+#include <talus/particles/body.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string choice(const std::vector<std::string> &names)
+    {
+      std::string selection;
+      for (const auto &name : names)
+        selection += (selection.empty() ? "" : "|") + name;
+      return selection;
+    }
+  } // namespace
+
+  template <int dim>
+  Body<dim>::Body(Parameters &parameters, const std::string &name, const std::vector<std::string> &material_names) :
+    ParameterAcceptor("/Bodies/" + name), name(name), velocity_text(dim == 2 ? "0; 0" : "0; 0; 0")
+  {
+    const std::string section = get_section_name();
+    const std::string chosen  = parameters.choose_from(section, "Material", material_names.front(),
+                                                       choice(material_names), "Name of the body's material.");
+    material = std::find(material_names.begin(), material_names.end(), chosen) - material_names.begin();
+    shape    = parameters.make<Shape<dim>>(section, "Shape", "box", "Region that the body fills.");
+
+    add_parameter("Velocity", velocity_text, "Initial velocity [length/time]: functions of x, y, z, separated by ';'.");
+    add_parameter("Velocity gradient", velocity_gradient,
+                  "Initial velocity gradient dv_i/dx_j row by row [1/time], for the affine transfers; empty: zero.",
+                  prm, Patterns::List(Patterns::Double(), 0, dim * dim));
+    stress_kind = parameters.choose_from(section, "Initial stress", "none", "none|uniform|geostatic",
+                                         "Stress before the first step: none, uniform, or that of a layer at rest.");
+    if (stress_kind == "uniform")
+    {
+      uniform_stress.assign(6, 0.);
+      add_parameter("Stress", uniform_stress,
+                    "Uniform initial stress xx, yy, zz, xy, xz, yz, tension positive [stress].", prm,
+                    Patterns::List(Patterns::Double(), 6, 6));
+    }
+    else if (stress_kind == "geostatic")
+    {
+      add_parameter("Unit weight", unit_weight, "Density times gravity [force/volume].", prm, Patterns::Double());
+      add_parameter("Surface level", surface_level, "Height of the free surface on the vertical axis [length].", prm,
+                    Patterns::Double());
+      add_parameter("Rest stress ratio", rest_stress_ratio,
+                    "K0, horizontal over vertical stress [1]; negative: that of the material, nu / (1 - nu).", prm,
+                    Patterns::Double());
+      add_parameter("Vertical axis", vertical_axis, "Axis along which the weight acts, downwards.", prm,
+                    Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"));
+    }
+  }
+
+  template <int dim>
+  void Body<dim>::parse_parameters(ParameterHandler &)
+  {
+    velocity.initialize(velocity_text, get_section_name(), "Velocity");
+    if (!velocity_gradient.empty() && velocity_gradient.size() != dim * dim)
+      throw EntryError(get_section_name(), "Velocity gradient",
+                       "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
+    if (stress_kind == "geostatic" && !(unit_weight > 0))
+      throw EntryError(get_section_name(), "Unit weight", "it must be positive: give density times gravity.");
+  }
+
+  template <int dim>
+  void Body<dim>::initialize(const Point<dim> &x, const double volume, const Material &material,
+                             const WorkingSet<dim> &set, std::vector<double> &properties) const
+  {
+    for (const auto &field : set.fields)
+      std::copy(field.initial.begin(), field.initial.end(), properties.begin() + field.first);
+    const auto value = [&](const unsigned int field, const unsigned int c) -> double &
+    { return properties[set.fields[field].first + c]; };
+
+    const Tensor<1, dim> v = velocity.value(x, 0.);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      value(set.position, d) = value(set.initial_position, d) = x[d];
+      value(set.velocity, d)                                  = v[d];
+      if (!std::isfinite(v[d]))
+        throw EntryError(get_section_name(), "Velocity", "it has no finite value at a particle.");
+    }
+    for (unsigned int c = 0; c < velocity_gradient.size(); ++c)
+      value(set.grad_v, c) = velocity_gradient[c];
+    const auto stress = initial_stress(x, material);
+    for (unsigned int c = 0; c < set.n_stress; ++c)
+      value(set.stress, c) = stress[c];
+    value(set.volume, 0) = volume;
+    value(set.mass, 0)   = volume * material.density;
+  }
+
+  template <int dim>
+  std::array<double, 6> Body<dim>::initial_stress(const Point<dim> &x, const Material &material) const
+  {
+    std::array<double, 6> stress{};
+    if (stress_kind == "uniform")
+      std::copy(uniform_stress.begin(), uniform_stress.end(), stress.begin());
+    else if (stress_kind == "geostatic")
+    {
+      const unsigned int vertical = vertical_axis[0] - 'x';
+      const double       sigma_v  = -unit_weight * std::max(0., surface_level - x[vertical]);
+      const double       K0       = rest_stress_ratio < 0 ? material.rest_stress_ratio() : rest_stress_ratio;
+      for (unsigned int d = 0; d < 3; ++d)
+        stress[d] = d == vertical ? sigma_v : K0 * sigma_v;
+    }
+    return stress;
+  }
+
+  template class Body<2>;
+  template class Body<3>;
+} // namespace Talus

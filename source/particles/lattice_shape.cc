@@ -1,0 +1,125 @@
+#include <talus/particles/lattice_shape.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cstdint>
+#include <limits>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  double hashed_jitter(const unsigned int seed, const unsigned int index, const unsigned int axis)
+  {
+    // Two rounds of the finaliser of SplitMix64 over the packed arguments.
+    const auto mix = [](std::uint64_t z)
+    {
+      z += 0x9e3779b97f4a7c15ull;
+      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+      z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+      return z ^ (z >> 31);
+    };
+    const std::uint64_t hash = mix(mix((std::uint64_t(seed) << 34) ^ (std::uint64_t(axis) << 32)) ^ index);
+    return static_cast<double>(hash >> 11) * 0x1p-52 - 1.;
+  }
+
+  template <int dim>
+  LatticeShape<dim>::LatticeShape(const std::string &section) : Shape<dim>(section)
+  {
+    this->add_parameter("Particles per cell and direction", points_per_cell,
+                        "A cell receives this number to the power of the dimension.", this->prm,
+                        Patterns::Integer(1, 16));
+    this->add_parameter(
+      "Lattice offset", offset,
+      "Shift of the particle lattice in units of the particle distance, one number per direction [1].", this->prm,
+      Patterns::List(Patterns::Double(-1, 1), dim, dim));
+    this->add_parameter(
+      "Jitter", jitter,
+      "Greatest random shift of a particle along each axis in units of half the particle distance [1].", this->prm,
+      Patterns::Double(0, 1));
+    this->add_parameter("Seed", seed, "Seed of the jitter.", this->prm, Patterns::Integer(0));
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::parse_parameters(ParameterHandler &)
+  {
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::create(const std::array<double, dim> &h)
+  {
+    const auto corners = this->bounding_box().get_boundary_points();
+    double     n       = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double length = corners.second[d] - corners.first[d];
+      if (!(length > 0))
+        throw EntryError(this->get_section_name(), "Shape",
+                         "the body is empty: it has no extent in direction " + std::string(1, "xyz"[d]) + ".");
+      // Equal boxes that fill the length exactly, as near to h/n as possible.
+      counts[d]  = std::max(1., std::round(length * points_per_cell / h[d]));
+      spacing[d] = length / counts[d];
+      lower[d]   = corners.first[d] + offset[d] * spacing[d];
+      n *= counts[d];
+    }
+    if (n > std::numeric_limits<types::particle_index>::max())
+      throw EntryError(this->get_section_name(), "Particles per cell and direction",
+                       "the body's lattice has more points than this deal.II can number (" +
+                         std::to_string(std::numeric_limits<types::particle_index>::max()) +
+                         "). Use a deal.II with 64-bit indices, or fewer particles.");
+  }
+
+  template <int dim>
+  unsigned int LatticeShape<dim>::n_indices() const
+  {
+    unsigned int n = 1;
+    for (const int count : counts)
+      n *= count;
+    return n;
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::visit(const BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const
+  {
+    const auto           corners = box.get_boundary_points();
+    std::array<int, dim> begin, end;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      // A jittered point strays from its lattice point by half a spacing at most.
+      begin[d] = std::max(0., std::floor((corners.first[d] - lower[d]) / spacing[d] - 1));
+      end[d]   = std::min<double>(counts[d], std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1));
+      if (begin[d] >= end[d])
+        return;
+    }
+    double volume = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      volume *= spacing[d];
+
+    for (auto k = begin; k[dim - 1] < end[dim - 1];)
+    {
+      unsigned int index = 0;
+      Point<dim>   x;
+      for (int d = dim - 1; d >= 0; --d)
+      {
+        index = index * counts[d] + k[d];
+        x[d]  = lower[d] + (k[d] + 0.5) * spacing[d];
+      }
+      if (contains(x))
+      {
+        if (jitter > 0)
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] += 0.5 * spacing[d] * jitter * hashed_jitter(seed, index, d);
+        visitor(index, x, volume);
+      }
+      ++k[0];
+      for (unsigned int d = 0; d + 1 < dim && k[d] == end[d]; ++d)
+      {
+        k[d] = begin[d];
+        ++k[d + 1];
+      }
+    }
+  }
+
+  template class LatticeShape<2>;
+  template class LatticeShape<3>;
+} // namespace Talus
