@@ -1,0 +1,27 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+namespace Talus
+{
+  /**
+   * Creates the directory into which a run writes. An old one that is not empty is
+   * refused, or with `overwrite` cleared of the files that a run writes; others
+   * stay. Throws an EntryError for `entry` of `section` on all ranks. Collective.
+   */
+  void prepare_directory(const std::string &directory, const bool overwrite, const std::string &section,
+                         const std::string &entry, MPI_Comm communicator);
+
+  /** True for the name of a file that Talus writes into its output directory and may remove there. */
+  bool is_output_file(const std::string &name);
+
+  /**
+   * Writes a file under a temporary name and renames it: whoever opens `path` sees
+   * the old file or the whole new one. Throws RunError.
+   */
+  void write_complete_file(const std::string &path, const std::function<void(std::ostream &)> &write);
+} // namespace Talus
