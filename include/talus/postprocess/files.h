@@ -24,4 +24,13 @@ namespace Talus
    * the old file or the whole new one. Throws RunError.
    */
   void write_complete_file(const std::string &path, const std::function<void(std::ostream &)> &write);
+
+  /** Gives a finished file its final name. Throws RunError. */
+  void rename_file(const std::string &temporary, const std::string &path);
+
+  /** Runs `work` on rank 0; a RunError there is thrown on all ranks. Collective. */
+  void run_on_root(const std::function<void()> &work, MPI_Comm communicator);
+
+  /** Appends `value` with the 17 significant digits that determine a double. */
+  void append_number(std::string &text, const double value);
 } // namespace Talus

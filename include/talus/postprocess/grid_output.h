@@ -19,8 +19,5 @@ namespace Talus
     std::vector<std::tuple<unsigned int, unsigned int, std::string,
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
     get_nonscalar_data_ranges() const override;
-
-  private:
-    std::vector<dealii::LinearAlgebra::distributed::Vector<double>> vectors;
   };
 } // namespace Talus

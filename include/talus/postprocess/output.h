@@ -23,6 +23,8 @@ namespace Talus
   public:
     explicit Output(const std::string &section = "/Output");
 
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
     /** Checks and creates the directory; EntryError on all ranks. Collective. */
     void open(MPI_Comm communicator);
 
@@ -39,7 +41,7 @@ namespace Talus
     double next_time() const { return next; }
 
     /** False once `step` is written; for an output at the end of a run. */
-    bool is_written(const unsigned int step) const { return is_anything_written && step == last_step; }
+    bool is_written(const unsigned int step) const { return !times.empty() && step == last_step; }
 
     /** Writes all files of this output. `Particles<dim>` is a working set. Collective. */
     void write(const double time, const unsigned int step, const WorkingSet<dim> &particles, const Grid<dim> &grid);
@@ -51,8 +53,9 @@ namespace Talus
 
   private:
     template <class DataOut>
-    void write_vtu(DataOut &data, const std::string &name, const std::map<std::string, std::string> &units);
+    void write_vtu(DataOut &data, const std::string &name, const std::map<std::string, std::string> &units) const;
     void write_series(const std::string &name) const;
+    std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;
 
     std::string              path                = "output";
     bool                     overwrite           = false;
@@ -62,11 +65,10 @@ namespace Talus
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
     bool                     with_grid = true, with_csv = false;
 
-    MPI_Comm                                     communicator = MPI_COMM_NULL;
-    std::vector<ParticleField<dim>>              fields;
-    std::vector<std::pair<double, unsigned int>> written; // time and step of each output
-    double                                       next                = std::numeric_limits<double>::infinity();
-    bool                                         is_anything_written = false;
-    unsigned int                                 last_step           = 0;
+    MPI_Comm                        communicator = MPI_COMM_NULL;
+    std::vector<ParticleField<dim>> fields;
+    std::vector<double>             times;         // of all outputs so far
+    unsigned int                    last_step = 0; // of the last of them
+    double                          next      = std::numeric_limits<double>::infinity();
   };
 } // namespace Talus

@@ -16,7 +16,7 @@ namespace Talus
     using Evaluate = std::function<void(const WorkingSet<dim> &, const unsigned int p, double *)>;
 
     std::string              name;       // as in the parameter file
-    std::string              unit;       // "[stress]"; empty when it is not known
+    std::string              unit;       // "stress", "1"; empty when it is not known
     std::vector<std::string> components; // "velocity_x", ...; blanks become underscores
     bool                     is_vector;  // dim components along the axes
     Evaluate                 evaluate;

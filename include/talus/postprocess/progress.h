@@ -37,9 +37,9 @@ namespace Talus
 
   private:
     using Clock = std::chrono::steady_clock;
-    std::string line(const double time, const unsigned int step) const;
+    /** What is known of a state, closed by `ending`. */
+    std::string line(const double time, const unsigned int step, const std::string &ending) const;
     void        print(const std::string &text);
-    double      elapsed() const; // [s]
 
     double            end_time;
     std::uint64_t     n_particles;
@@ -47,7 +47,9 @@ namespace Talus
     bool              is_root, is_terminal;
     double            interval; // [s]
     Clock::time_point start, last;
-    double            start_time   = 0;
+    // The first state seen, from which the remaining time is extrapolated.
+    Clock::time_point first;
+    double            first_time   = 0;
     bool              has_started  = false;
     bool              is_line_open = false;
   };
