@@ -1,0 +1,74 @@
+#pragma once
+
+#include <talus/grid/grid.h>
+#include <talus/particles/particles.h>
+#include <talus/postprocess/particle_fields.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <limits>
+
+namespace Talus
+{
+  /**
+   * Writes what a run leaves behind for ParaView: particles_NNNNN.vtu and
+   * grid_NNNNN.vtu, one file on any number of ranks, and particles.pvd, grid.pvd
+   * that make them time series; on request particles_NNNNN.csv. Every file is
+   * complete at any time. Writing reads the working set and changes nothing in it.
+   * Throws RunError when a file cannot be written. Test: tests/postprocess.
+   */
+  template <int dim>
+  class Output : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Output(const std::string &section = "/Output");
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    /** Checks and creates the directory; EntryError on all ranks. Collective. */
+    void open(MPI_Comm communicator);
+
+    /** Finds the chosen fields; an unknown name is an EntryError. Once, before the first write(). */
+    void check(const WorkingSet<dim> &particles);
+
+    /**
+     * True in step 0 and whenever an interval has passed since the last output.
+     * False once this step is written, and always when both intervals are 0.
+     */
+    bool is_due(const double time, const unsigned int step) const;
+
+    /** Time of the next output by `Time interval`; infinite when that is off. A step may end there [time]. */
+    double next_time() const { return next; }
+
+    /** False once `step` is written; for an output at the end of a run. */
+    bool is_written(const unsigned int step) const { return !times.empty() && step == last_step; }
+
+    /** Writes all files of this output. `Particles<dim>` is a working set. Collective. */
+    void write(const double time, const unsigned int step, const WorkingSet<dim> &particles, const Grid<dim> &grid);
+
+    bool is_statistics_due(const unsigned int step) const { return step % statistics_interval == 0; }
+
+    /** Without a slash at its end. */
+    const std::string &directory() const { return path; }
+
+  private:
+    template <class DataOut>
+    void write_vtu(DataOut &data, const std::string &name, const std::map<std::string, std::string> &units) const;
+    void write_series(const std::string &name) const;
+    std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;
+
+    std::string              path                = "output";
+    bool                     overwrite           = false;
+    double                   time_interval       = 0; // [time]
+    unsigned int             step_interval       = 0;
+    unsigned int             statistics_interval = 1;
+    std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
+    bool                     with_grid = true, with_csv = false;
+
+    MPI_Comm                        communicator = MPI_COMM_NULL;
+    std::vector<ParticleField<dim>> fields;
+    std::vector<double>             times;         // of all outputs so far
+    unsigned int                    last_step = 0; // of the last of them
+    double                          next      = std::numeric_limits<double>::infinity();
+  };
+} // namespace Talus

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <talus/core/parameters.h>
+#include <talus/grid/grid.h>
+#include <talus/postprocess/particle_fields.h>
+#include <talus/postprocess/statistics.h>
+
+namespace Talus
+{
+  /** One place or particle that is watched. */
+  template <int dim>
+  class Probe : public dealii::ParameterAcceptor
+  {
+  public:
+    Probe(const std::string &section, const std::string &name);
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    const std::string  name;
+    bool               is_particle = false;
+    dealii::Point<dim> position;
+
+    dealii::types::particle_index id   = 0; // of the tracked particle
+    unsigned int                  slot = 0; // where it was last found on this rank
+
+  private:
+    std::string         kind = "point";
+    std::vector<double> coordinates;
+  };
+
+  /**
+   * Time series at points and of tracked particles, in `probes.csv`.
+   *
+   * A *point* gives the fields of the particle that is nearest to it at that time,
+   * whose distance stands beside them: values jump by the variation between
+   * neighbours when another one becomes the nearest. A *particle* is the one whose
+   * initial position is nearest to the point, and is followed by its id. Of
+   * particles at equal distance the one with the lowest id is taken, so that the
+   * table does not depend on the number of ranks. Test: tests/postprocess/probes.cc.
+   */
+  template <int dim>
+  class Probes : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Probes(Parameters &parameters, const std::string &section = "/Output/Probes");
+
+    /**
+     * Finds the tracked particles and opens `directory`/probes.csv; nothing when
+     * there is no probe. Throws EntryError on all ranks for a point outside the
+     * grid, a particle that nothing is near to, and an unknown field. Collective.
+     */
+    void open(const std::string &directory, const WorkingSet<dim> &particles, const Grid<dim> &grid);
+
+    /** Appends a row. Collective. */
+    void write(const double time, const WorkingSet<dim> &particles);
+
+    bool is_empty() const { return probes.empty(); }
+
+  private:
+    void                check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const;
+    std::vector<double> sample(const WorkingSet<dim> &particles);
+
+    std::vector<std::unique_ptr<Probe<dim>>> probes;
+    std::vector<std::string>                 field_names{"position", "velocity", "stress"};
+    std::vector<ParticleField<dim>>          fields;
+    CsvFile                                  file;
+    MPI_Comm                                 communicator = MPI_COMM_NULL;
+  };
+} // namespace Talus

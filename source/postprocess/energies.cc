@@ -1,0 +1,123 @@
+#include <talus/core/reduction.h>
+#include <talus/postprocess/energies.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** o cross v, given the matrix v (x) o: component i is eps_ijk A_kj; in 2D the one about z. */
+    template <int dim>
+    typename Totals<dim>::Rotation rotation(const Tensor<2, dim> &A)
+    {
+      typename Totals<dim>::Rotation value;
+      if constexpr (dim == 2)
+        value[0] = A[1][0] - A[0][1];
+      else
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+          value[i] = A[k][j] - A[j][k];
+        }
+      return value;
+    }
+
+    /** Visits all sums, so that one order serves the message, the columns and the row. */
+    template <class AnyTotals, class Visitor>
+    void visit(AnyTotals &totals, const Visitor &visitor)
+    {
+      constexpr unsigned int dim = std::decay_t<decltype(totals.momentum)>::dimension;
+      const std::string      spin("mass length^2/time");
+      visitor("mass", "mass", totals.mass);
+      visitor("volume", "volume", totals.volume);
+      visitor("kinetic energy", "energy", totals.kinetic_energy);
+      visitor("strain energy", "energy", totals.strain_energy);
+      for (unsigned int d = 0; d < dim; ++d)
+        visitor(std::string("momentum_") + "xyz"[d], "mass length/time", totals.momentum[d]);
+      for (unsigned int i = 0; i < totals.n_rotations; ++i)
+        visitor(std::string("angular momentum_") + "xyz"[dim == 2 ? 2 : i], spin, totals.angular_momentum[i]);
+      for (unsigned int i = 0; i < totals.n_rotations; ++i)
+        visitor(std::string("total angular momentum_") + "xyz"[dim == 2 ? 2 : i], spin,
+                totals.total_angular_momentum[i]);
+    }
+
+    template <int dim>
+    double strain_energy(const WorkingSet<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials)
+    {
+      const auto stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+      const auto volume = particles.component(particles.volume, 0);
+      double     energy = 0;
+      for (unsigned int m = 0; m + 1 < particles.material_begin.size(); ++m)
+        for (unsigned int p = particles.material_begin[m]; p < particles.material_begin[m + 1]; ++p)
+        {
+          SymmetricTensor<2, 3> sigma;
+          for (unsigned int c = 0; c < particles.n_stress; ++c)
+            sigma.access_raw_entry(c) = stress[c][p];
+          energy += volume[p] * materials[m]->strain_energy_density(sigma);
+        }
+      return energy;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<Column> Totals<dim>::columns()
+  {
+    std::vector<Column> columns;
+    const Totals        none;
+    visit(none, [&](const std::string &name, const std::string &unit, auto) { columns.push_back({name, unit}); });
+    return columns;
+  }
+
+  template <int dim>
+  std::vector<double> Totals<dim>::values() const
+  {
+    std::vector<double> values;
+    visit(*this, [&](const auto &, const auto &, const double value) { values.push_back(value); });
+    return values;
+  }
+
+  template <int dim>
+  Totals<dim> totals(const WorkingSet<dim> &particles, const Transfer<dim> &transfer,
+                     const std::vector<std::unique_ptr<Material>> &materials, MPI_Comm communicator)
+  {
+    const auto x      = particles.template components<dim>(particles.position);
+    const auto v      = particles.template components<dim>(particles.velocity);
+    const auto mass   = particles.component(particles.mass, 0);
+    const auto volume = particles.component(particles.volume, 0);
+
+    Totals<dim> sum;
+    for (unsigned int p = 0; p < particles.size(); ++p)
+    {
+      Tensor<1, dim> x_p, v_p;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        x_p[d] = x[d][p];
+        v_p[d] = v[d][p];
+      }
+      sum.mass += mass[p];
+      sum.volume += volume[p];
+      sum.kinetic_energy += 0.5 * mass[p] * v_p.norm_square();
+      sum.momentum += mass[p] * v_p;
+      const auto orbital = mass[p] * rotation(outer_product(v_p, x_p));
+      sum.angular_momentum += orbital;
+      sum.total_angular_momentum += orbital + mass[p] * rotation(transfer.affine_moment(particles, p));
+    }
+    sum.strain_energy = strain_energy(particles, materials);
+
+    std::vector<double> no_maxima, message = sum.values();
+    reduce(no_maxima, message, communicator);
+    auto next = message.begin();
+    visit(sum, [&](const auto &, const auto &, double &value) { value = *next++; });
+    return sum;
+  }
+
+  template struct Totals<2>;
+  template struct Totals<3>;
+  template Totals<2> totals(const WorkingSet<2> &, const Transfer<2> &, const std::vector<std::unique_ptr<Material>> &,
+                            MPI_Comm);
+  template Totals<3> totals(const WorkingSet<3> &, const Transfer<3> &, const std::vector<std::unique_ptr<Material>> &,
+                            MPI_Comm);
+} // namespace Talus

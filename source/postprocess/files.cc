@@ -1,0 +1,136 @@
+#include <talus/core/exceptions.h>
+#include <talus/postprocess/files.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+namespace Talus
+{
+  using namespace dealii;
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    /** Why no directory can be made at `path`; names a file that stands in its way. */
+    std::string why_not_created(const fs::path &path, const std::error_code &error)
+    {
+      std::error_code ignored;
+      for (fs::path part = path; !part.empty() && part != part.root_path(); part = part.parent_path())
+        if (fs::exists(part, ignored) && !fs::is_directory(part, ignored))
+          return "cannot create the directory '" + path.string() + "': '" + part.string() +
+                 "' is a file. Choose another directory.";
+      return "cannot create the directory '" + path.string() + "': " + error.message() + ". Choose another directory.";
+    }
+
+    bool is_writable(const fs::path &directory)
+    {
+      const fs::path  file = directory / "talus_is_writable.tmp";
+      const bool      is_good(std::ofstream(file).good());
+      std::error_code ignored;
+      fs::remove(file, ignored);
+      return is_good;
+    }
+
+    /** Removes the files of an old run; returns what is wrong, or nothing. */
+    std::string clear(const fs::path &directory)
+    {
+      std::error_code       error;
+      std::vector<fs::path> old_files;
+      for (const auto &entry : fs::directory_iterator(directory, error))
+        if (is_output_file(entry.path().filename().string()))
+          old_files.push_back(entry.path());
+      for (const auto &file : old_files)
+        if (!error)
+          fs::remove(file, error);
+      return error ? "cannot remove the old files in '" + directory.string() + "': " + error.message() +
+                       ". Choose another directory." :
+                     "";
+    }
+
+    std::string prepare(const std::string &directory, const bool overwrite)
+    {
+      if (directory.empty())
+        return "the directory has no name. Give one; '.' is the one talus is started in.";
+      const fs::path  path(directory);
+      std::error_code error;
+      fs::create_directories(path, error);
+      // An old file of this name is no error to create_directories().
+      if (error || !fs::is_directory(path))
+        return why_not_created(path, error);
+      const bool is_empty = fs::is_empty(path, error);
+      if (error)
+        return "cannot read the directory '" + directory + "': " + error.message() + ". Choose another directory.";
+      if (!is_empty && !overwrite)
+        return "the directory '" + directory +
+               "' is not empty. Set 'Overwrite' to true to replace the files of an old run, "
+               "or choose another directory.";
+      if (!is_writable(path))
+        return "the directory '" + directory + "' is not writable. Change its permissions or choose another directory.";
+      return clear(path);
+    }
+  } // namespace
+
+  void prepare_directory(const std::string &directory, const bool overwrite, const std::string &section,
+                         const std::string &entry, MPI_Comm communicator)
+  {
+    std::string problem;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      problem = prepare(directory, overwrite);
+    problem = Utilities::MPI::broadcast(communicator, problem);
+    if (!problem.empty())
+      throw EntryError(section, entry, problem);
+  }
+
+  bool is_output_file(const std::string &name)
+  {
+    // parameters.prm is not among them: it may be the very file from which the run is repeated.
+    static const std::regex pattern("((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|"
+                                    "(statistics|probes|comparison)\\.csv|log\\.txt)(\\.tmp)?");
+    return std::regex_match(name, pattern);
+  }
+
+  void rename_file(const std::string &temporary, const std::string &path)
+  {
+    std::error_code error;
+    fs::rename(temporary, path, error);
+    AssertThrow(!error, RunError("Cannot write '" + path + "': " + error.message() + "."));
+  }
+
+  void write_complete_file(const std::string &path, const std::function<void(std::ostream &)> &write)
+  {
+    const std::string temporary = path + ".tmp";
+    std::ofstream     file(temporary);
+    if (file)
+      write(file);
+    file.close();
+    AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
+    rename_file(temporary, path);
+  }
+
+  void run_on_root(const std::function<void()> &work, MPI_Comm communicator)
+  {
+    std::string problem;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+      {
+        work();
+      }
+      catch (const RunError &error)
+      {
+        problem = error.message;
+      }
+    problem = Utilities::MPI::broadcast(communicator, problem);
+    AssertThrow(problem.empty(), RunError(problem));
+  }
+
+  void append_number(std::string &text, const double value)
+  {
+    char buffer[32];
+    std::snprintf(buffer, sizeof(buffer), "%.17g", value);
+    text += buffer;
+  }
+} // namespace Talus

@@ -1,0 +1,155 @@
+#include <talus/core/exceptions.h>
+#include <talus/postprocess/files.h>
+#include <talus/postprocess/grid_output.h>
+#include <talus/postprocess/output.h>
+#include <talus/postprocess/particle_output.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <fstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // An output that round-off puts this part of an interval too early is in time.
+    constexpr double tolerance = 1e-6;
+
+    /** Whether the file ends as a VTU file must: deal.II's parallel writer may not notice a full disk. */
+    bool is_complete_vtu(const std::string &path)
+    {
+      const std::string end = "</VTKFile>";
+      std::ifstream     file(path, std::ios::binary);
+      std::string       text(2 * end.size(), ' ');
+      file.seekg(-static_cast<int>(text.size()), std::ios::end);
+      file.read(&text[0], text.size());
+      return file && text.find(end) != std::string::npos;
+    }
+  } // namespace
+
+  template <int dim>
+  Output<dim>::Output(const std::string &section) : ParameterAcceptor(section)
+  {
+    add_parameter("Directory", path, "Directory into which all files of the run are written.");
+    add_parameter("Overwrite", overwrite, "Replace the files of an old run in that directory.");
+    add_parameter("Time interval", time_interval, "Time between two outputs [time]; 0: off.", prm, Patterns::Double(0));
+    add_parameter("Step interval", step_interval, "Steps between two outputs [1]; 0: off.", prm, Patterns::Integer(0));
+    add_parameter("Statistics interval", statistics_interval,
+                  "Steps between two rows of statistics.csv and probes.csv [1].", prm, Patterns::Integer(1));
+    add_parameter("Particle fields", field_names,
+                  "Fields of the particles to write, beside id and body: stored ones (velocity, stress, ...), "
+                  "displacement, von Mises stress, pressure, density, volume ratio, kinetic energy density.");
+    add_parameter("Grid", with_grid, "Write mass and velocity of the nodes as well.");
+    add_parameter("CSV", with_csv, "Write the particles as a CSV table as well.");
+  }
+
+  template <int dim>
+  void Output<dim>::parse_parameters(ParameterHandler &)
+  {
+    while (path.size() > 1 && path.back() == '/')
+      path.pop_back();
+    if (!std::isfinite(time_interval))
+      throw EntryError(get_section_name(), "Time interval",
+                       "it must be a finite number. Set it to 0 to switch it off.");
+    next = time_interval > 0 ? 0. : std::numeric_limits<double>::infinity();
+  }
+
+  template <int dim>
+  void Output<dim>::open(MPI_Comm communicator)
+  {
+    this->communicator = communicator;
+    prepare_directory(path, overwrite, get_section_name(), "Directory", communicator);
+  }
+
+  template <int dim>
+  void Output<dim>::check(const WorkingSet<dim> &particles)
+  {
+    fields = select_particle_fields(particles, field_names, get_section_name(), "Particle fields");
+  }
+
+  template <int dim>
+  bool Output<dim>::is_due(const double time, const unsigned int step) const
+  {
+    const bool by_time = time_interval > 0, by_step = step_interval > 0;
+    if (is_written(step))
+      return false;
+    if (times.empty())
+      return by_time || by_step;
+    return (by_step && step % step_interval == 0) || (by_time && time >= next - tolerance * time_interval);
+  }
+
+  template <int dim>
+  void Output<dim>::write(const double time, const unsigned int step, const WorkingSet<dim> &particles,
+                          const Grid<dim> &grid)
+  {
+    const unsigned int number = times.size();
+    times.push_back(time);
+    last_step = step;
+    if (time_interval > 0)
+      next = (std::floor(time / time_interval + tolerance) + 1) * time_interval;
+
+    ParticleOutput<dim> particle_output;
+    particle_output.build_patches(particles, fields);
+    write_vtu(particle_output, "particles", particle_output.units());
+    if (with_csv)
+      write_particle_csv(path + "/" + file_name("particles", number, ".csv"), particles, fields, time, communicator);
+    if (with_grid)
+    {
+      GridOutput<dim> grid_output(grid);
+      write_vtu(grid_output, "grid", {{"mass", "mass"}, {"velocity", "length/time"}});
+    }
+  }
+
+  template <int dim>
+  std::string Output<dim>::file_name(const std::string &name, const unsigned int number,
+                                     const std::string &ending) const
+  {
+    return name + "_" + Utilities::int_to_string(number, 5) + ending;
+  }
+
+  template <int dim>
+  template <class DataOut>
+  void Output<dim>::write_vtu(DataOut &data, const std::string &name,
+                              const std::map<std::string, std::string> &units) const
+  {
+    DataOutBase::VtkFlags flags(times.back(), last_step, /* print_date_and_time = */ false,
+                                DataOutBase::VtkFlags::best_speed);
+    flags.physical_units = units;
+    data.set_flags(flags);
+
+    const std::string final_name = path + "/" + file_name(name, times.size() - 1, ".vtu");
+    const std::string temporary  = final_name + ".tmp";
+    const RunError    failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
+    try
+    {
+      data.write_vtu_in_parallel(temporary, communicator);
+    }
+    catch (const ExceptionBase &)
+    {
+      throw failure;
+    }
+    run_on_root(
+      [&]
+      {
+        AssertThrow(is_complete_vtu(temporary), failure);
+        rename_file(temporary, final_name);
+        write_series(name);
+      },
+      communicator);
+  }
+
+  template <int dim>
+  void Output<dim>::write_series(const std::string &name) const
+  {
+    std::vector<std::pair<double, std::string>> files;
+    for (unsigned int i = 0; i < times.size(); ++i)
+      files.emplace_back(times[i], file_name(name, i, ".vtu"));
+    write_complete_file(path + "/" + name + ".pvd",
+                        [&](std::ostream &out) { DataOutBase::write_pvd_record(out, files); });
+  }
+
+  template class Output<2>;
+  template class Output<3>;
+} // namespace Talus

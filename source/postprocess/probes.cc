@@ -1,0 +1,191 @@
+#include <talus/core/exceptions.h>
+#include <talus/postprocess/probes.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    /** The particle that is nearest to a point: on this rank, or of all. */
+    struct Nearest
+    {
+      double       distance = infinity; // [length]
+      double       id       = infinity;
+      unsigned int slot     = 0;
+    };
+
+    /** Among particles at equal distance the one with the lowest id. `field` holds the positions. */
+    template <int dim>
+    Nearest nearest_on_this_rank(const WorkingSet<dim> &particles, const unsigned int field, const Point<dim> &point)
+    {
+      const auto x = particles.template components<dim>(field);
+      Nearest    best;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+      {
+        double distance_squared = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          distance_squared += (x[d][p] - point[d]) * (x[d][p] - point[d]);
+        if (distance_squared < best.distance || (distance_squared == best.distance && particles.id[p] < best.id))
+          best = {distance_squared, static_cast<double>(particles.id[p]), p};
+      }
+      best.distance = std::sqrt(best.distance);
+      return best;
+    }
+
+    /** For each point the nearest particle of all ranks; `slot` is set on the rank that holds it. */
+    template <int dim>
+    std::vector<Nearest> nearest(const WorkingSet<dim> &particles, const unsigned int field,
+                                 const std::vector<Point<dim>> &points, MPI_Comm communicator)
+    {
+      std::vector<Nearest> local, global(points.size());
+      std::vector<double>  distances, ids;
+      for (const auto &point : points)
+      {
+        local.push_back(nearest_on_this_rank(particles, field, point));
+        distances.push_back(local.back().distance);
+      }
+      Utilities::MPI::min(distances, communicator, distances);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        ids.push_back(local[i].distance == distances[i] ? local[i].id : infinity);
+      Utilities::MPI::min(ids, communicator, ids);
+      for (unsigned int i = 0; i < points.size(); ++i)
+        global[i] = {distances[i], ids[i], local[i].slot};
+      return global;
+    }
+  } // namespace
+
+  template <int dim>
+  Probe<dim>::Probe(const std::string &section, const std::string &name) :
+    ParameterAcceptor(section), name(name), coordinates(dim, 0.)
+  {
+    add_parameter("Kind", kind,
+                  "point: the particle nearest to the point at each time; "
+                  "particle: the one that is nearest at the start, followed.",
+                  prm, Patterns::Selection("point|particle"));
+    add_parameter("Position", coordinates, "The point [length].", prm, Patterns::List(Patterns::Double(), dim, dim));
+  }
+
+  template <int dim>
+  void Probe<dim>::parse_parameters(ParameterHandler &)
+  {
+    is_particle = kind == "particle";
+    for (unsigned int d = 0; d < dim; ++d)
+      position[d] = coordinates[d];
+  }
+
+  template <int dim>
+  Probes<dim>::Probes(Parameters &parameters, const std::string &section) : ParameterAcceptor(section)
+  {
+    for (const auto &name : parameters.names(section, "Names of the points and particles that are watched."))
+      probes.push_back(std::make_unique<Probe<dim>>(section + "/" + name, name));
+    add_parameter("Fields", field_names, "Particle fields to write into probes.csv.");
+  }
+
+  template <int dim>
+  void Probes<dim>::open(const std::string &directory, const WorkingSet<dim> &particles, const Grid<dim> &grid)
+  {
+    communicator = grid.communicator;
+    fields       = select_particle_fields(particles, field_names, get_section_name(), "Fields");
+    if (probes.empty())
+      return;
+
+    std::vector<Point<dim>> points;
+    for (const auto &probe : probes)
+      points.push_back(probe->position);
+    const auto          found = nearest(particles, particles.initial_position, points, communicator);
+    std::vector<Column> columns{{"time", "time"}};
+    for (unsigned int i = 0; i < probes.size(); ++i)
+    {
+      Probe<dim> &probe = *probes[i];
+      check_position(probe, grid, found[i].distance);
+      probe.id = static_cast<types::particle_index>(found[i].id);
+      if (!probe.is_particle)
+        columns.push_back({probe.name + "_distance", "length"});
+      for (const auto &field : fields)
+        for (const auto &component : field.components)
+          columns.push_back({probe.name + "_" + component, field.unit});
+    }
+    file.open(directory + "/probes.csv", columns, communicator);
+  }
+
+  template <int dim>
+  void Probes<dim>::check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const
+  {
+    double diagonal_squared = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      diagonal_squared += grid.lattice.h[d] * grid.lattice.h[d];
+      if (!(probe.position[d] >= grid.lower[d] && probe.position[d] <= grid.upper[d]))
+        throw EntryError(probe.get_section_name(), "Position",
+                         "the point lies outside the grid. Move it into the grid's box.");
+    }
+    if (probe.is_particle && distance > std::sqrt(diagonal_squared))
+      throw EntryError(probe.get_section_name(), "Position",
+                       "no particle starts within a cell's diagonal of this point; the nearest one is " +
+                         std::to_string(distance) + " away. Move the point into a body.");
+  }
+
+  template <int dim>
+  std::vector<double> Probes<dim>::sample(const WorkingSet<dim> &particles)
+  {
+    std::vector<Point<dim>> points;
+    for (const auto &probe : probes)
+      if (!probe->is_particle)
+        points.push_back(probe->position);
+    const auto   found   = nearest(particles, particles.position, points, communicator);
+    const bool   is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
+    unsigned int k       = 0;
+
+    // The rank that holds a particle gives its values, the others zeros.
+    std::vector<double> row, values(n_components(fields));
+    for (const auto &probe : probes)
+    {
+      auto &slot = probe->slot;
+      if (!probe->is_particle)
+      {
+        row.push_back(is_root ? found[k].distance : 0.);
+        probe->id = static_cast<types::particle_index>(found[k].id);
+        slot      = found[k++].slot;
+      }
+      else if (slot >= particles.size() || particles.id[slot] != probe->id)
+        slot = std::find(particles.id.begin(), particles.id.end(), probe->id) - particles.id.begin();
+
+      std::fill(values.begin(), values.end(), 0.);
+      if (slot < particles.size() && particles.id[slot] == probe->id)
+      {
+        unsigned int c = 0;
+        for (const auto &field : fields)
+        {
+          field.evaluate(particles, slot, &values[c]);
+          c += field.components.size();
+        }
+      }
+      row.insert(row.end(), values.begin(), values.end());
+    }
+    return row;
+  }
+
+  template <int dim>
+  void Probes<dim>::write(const double time, const WorkingSet<dim> &particles)
+  {
+    if (probes.empty())
+      return;
+    std::vector<double> row = sample(particles);
+    Utilities::MPI::sum(row, communicator, row);
+    row.insert(row.begin(), time);
+    file.write_row(row);
+  }
+
+  template class Probe<2>;
+  template class Probe<3>;
+  template class Probes<2>;
+  template class Probes<3>;
+} // namespace Talus
