@@ -4,6 +4,8 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <sstream>
+
 namespace Talus
 {
   using namespace dealii;
@@ -54,11 +56,13 @@ namespace Talus
       for (unsigned int component = 0; component < dim; ++component)
         displacement.value(Point<dim>(), component); // a formula is only read when it is first evaluated
     }
-    catch (const ExceptionBase &)
+    catch (const ExceptionBase &error)
     {
+      std::ostringstream reason;
+      error.print_info(reason);
       throw EntryError(section, "Displacement",
                        "cannot read '" + formulas + "'. Write formulas of " + (dim == 2 ? "x, y, t" : "x, y, z, t") +
-                         " in muParser's syntax, for example 0.1*t*sin(pi*x).");
+                         " in muParser's syntax, for example 0.1*t*sin(pi*x). " + Utilities::trim(reason.str()));
     }
   }
 
