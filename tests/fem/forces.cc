@@ -80,6 +80,27 @@ namespace
                 (bottom + top - total).norm() / (bottom.norm() + top.norm()), 1e-9);
   }
 
+  /** Two conditions on one face: the last counts, and the force is its own. */
+  void check_precedence()
+  {
+    const std::string first     = Test::condition("first", "3", "7; 0"),
+                      last      = Test::condition("last", "3", "1e-3; 7", "x");
+    const std::string floor     = Test::condition("floor", "2", "0; 0");
+    auto              reference = Test::make_reference<2>(Test::set("Cells", "4, 4") +
+                                             Test::conditions("floor, first, last", floor + first + last));
+    reference->set_moduli(K, G);
+    reference->solve(0.);
+    const auto u = reference->displacement({Point<2>(0., 1.), Point<2>(.3, 1.), Point<2>(1., 1.)});
+    for (const auto &u_top : u)
+      Test::check("last condition counts", (u_top - Tensor<1, 2>({1e-3, 0.})).norm() / 1e-3, 1e-12);
+    const auto first_force = reference->force("first"), last_force = reference->force("last");
+    Test::check("force without x of the first condition", first_force[0] / (1e-3 * G), 1e-12);
+    Test::check("force without y of the last condition", last_force[1] / (1e-3 * G), 1e-12);
+    Test::check("x of the force is the last condition's",
+                (reference->force("floor")[0] + last_force[0]) / last_force[0], 1e-9);
+    Test::check_true("it opposes the motion", last_force[0] < -.1 * 1e-3 * G);
+  }
+
   /** Random points' stress and the forces, computed by all ranks together and by each alone. */
   template <int dim>
   void check_ranks()
@@ -125,6 +146,7 @@ void affine()
 
 void forces()
 {
+  check_precedence();
   for (const unsigned int degree : {1, 2})
   {
     check_balance<2>(degree);
