@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 namespace Talus
 {
@@ -48,6 +49,32 @@ namespace Talus
                             visitor(i, x, volume);
                         });
     }
+
+    /** Throws for an empty body and for one that does not lie in the grid; every rank looks at all its points. */
+    template <int dim>
+    void check_body(const Grid<dim> &grid, const Body<dim> &body)
+    {
+      std::uint64_t      n_points = 0, n_outside = 0;
+      std::ostringstream example;
+      body.shape->visit(body.shape->bounding_box(),
+                        [&](const unsigned int, const Point<dim> &x, const double)
+                        {
+                          ++n_points;
+                          bool is_inside = true;
+                          for (unsigned int d = 0; d < dim; ++d)
+                            is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
+                          if (!is_inside && n_outside++ == 0)
+                            example << x;
+                        });
+      if (n_points == 0)
+        throw EntryError(body.get_section_name(), "Shape",
+                         "the body is empty: no particle lies in it. Check its extent or its particles per cell.");
+      if (n_outside > 0)
+        throw EntryError(body.get_section_name(), "Shape",
+                         std::to_string(n_outside) + " of its " + std::to_string(n_points) +
+                           " particles lie outside the grid, the first at (" + example.str() +
+                           "). Enlarge the grid or move the body.");
+    }
   } // namespace
 
   template <int dim>
@@ -75,7 +102,8 @@ namespace Talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      body.first_id   = next_id;
+      check_body(grid, body);
+      body.first_id = next_id;
       next_id += body.shape->n_indices();
       AssertThrow(
         next_id <= std::numeric_limits<types::particle_index>::max(),
@@ -100,13 +128,7 @@ namespace Talus
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
     for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      if (n_created[b] == 0)
-        throw EntryError(
-          bodies[b]->get_section_name(), "Shape",
-          "the body is empty: no particle lies in it and in the grid. Check its corners or its particles per cell.");
       n_global += n_created[b];
-    }
     // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
     grid.mass_floor = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
     load();
