@@ -327,13 +327,15 @@ namespace Talus
       leave(prm, path);
       if (!is_known)
         reject_unknown(key, setting);
-      const auto bracket = problem.find('[');
-      AssertThrow(problem.empty(),
-                  InputError(setting.origin + ": " + describe(key) + ": '" + setting.value +
-                             "' is not a valid value. Expected " +
-                             Utilities::trim(Utilities::replace_in_string(
-                               bracket == std::string::npos ? problem : problem.substr(bracket), "\n", " ")) +
-                             "."));
+      // The pattern stands between the first and the last bracket.
+      const auto bracket = problem.find('['), closing = problem.rfind(']');
+      AssertThrow(
+        problem.empty(),
+        InputError(
+          setting.origin + ": " + describe(key) + ": '" + setting.value + "' is not a valid value. Expected " +
+          Utilities::trim(Utilities::replace_in_string(
+            bracket == std::string::npos ? problem : problem.substr(bracket, closing + 1 - bracket), "\n", " ")) +
+          "."));
     }
     try
     {
