@@ -42,8 +42,10 @@ namespace Test
   template <int dim>
   std::string full_box(const std::string &kernel, const std::string &treatment, const std::string &transfer)
   {
-    return skewed_grid<dim>({{6, 5, 4}}) + kernel_text(kernel, treatment) + transfer_text(transfer) +
-           box_body<dim>({{-0.3, 0.7, 0.2}}, {{0.3, 1.1, 0.7}}, 0.5);
+    const std::array<int, 3> cells = {{dim == 2 ? 6 : 4, dim == 2 ? 5 : 4, 4}};
+    return skewed_grid<dim>(cells) + kernel_text(kernel, treatment) + transfer_text(transfer) +
+           box_body<dim>({{-0.3, 0.7, 0.2}}, {{-0.3 + 0.1 * cells[0], 0.7 + 0.08 * cells[1], 0.2 + 0.125 * cells[2]}},
+                         0.5);
   }
 
   /** Random velocity, velocity gradient and, with APIC, B. */
