@@ -1,1 +1,60 @@
-int main() {}
+#include <talus/core/command_line.h>
+#include <talus/core/exceptions.h>
+#include <talus/core/parameters.h>
+#include <talus/simulation/list.h>
+#include <talus/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+using namespace Talus;
+
+namespace
+{
+  template <int dim>
+  void run(Parameters &parameters, const CommandLine &command_line)
+  {
+    Simulation<dim> simulation(parameters, MPI_COMM_WORLD);
+    parameters.parse();
+    if (!command_line.prints_parameters)
+      simulation.run();
+    else if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      parameters.print(std::cout, /* with_help = */ true);
+  }
+
+  void run_file(const CommandLine &command_line)
+  {
+    Parameters parameters(command_line.file_name, command_line.overrides);
+    try
+    {
+      if (parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.") == "2")
+        run<2>(parameters, command_line);
+      else
+        run<3>(parameters, command_line);
+    }
+    catch (const EntryError &error)
+    {
+      throw InputError(parameters.locate(error));
+    }
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, /* max_num_threads = */ 1);
+  return exit_status(
+    [&]()
+    {
+      const CommandLine command_line(argc, argv);
+      const bool        is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      if (command_line.wants_help && is_root)
+        std::cout << CommandLine::help();
+      else if (command_line.wants_version && is_root)
+        std::cout << "talus " << version() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
+      else if (command_line.wants_list && is_root)
+        list_registered(std::cout);
+      else if (!command_line.file_name.empty())
+        run_file(command_line);
+    });
+}

@@ -306,29 +306,24 @@ namespace Talus
     for (const auto &[key, setting] : settings)
     {
       const auto path = split(parent(key));
-      // An undeclared subsection would be created by entering it; get() below finds out.
+      // set() finds out what is not declared; get() would do so in Debug builds only.
       enter(prm, path);
       std::string problem;
       bool        is_known = true;
       try
       {
-        prm.get(leaf(key));
+        prm.set(leaf(key), setting.value);
       }
-      catch (const ExceptionBase &)
+      catch (const ParameterHandler::ExcEntryUndeclared &)
       {
         is_known = false;
       }
-      if (is_known)
-        try
-        {
-          prm.set(leaf(key), setting.value);
-        }
-        catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error)
-        {
-          std::ostringstream text;
-          error.print_info(text);
-          problem = text.str();
-        }
+      catch (const ParameterHandler::ExcValueDoesNotMatchPattern &error)
+      {
+        std::ostringstream text;
+        error.print_info(text);
+        problem = text.str();
+      }
       leave(prm, path);
       if (!is_known)
         reject_unknown(key, setting);
@@ -340,7 +335,16 @@ namespace Talus
                                bracket == std::string::npos ? problem : problem.substr(bracket), "\n", " ")) +
                              "."));
     }
-    ParameterAcceptor::parse_all_parameters(prm);
+    try
+    {
+      ParameterAcceptor::parse_all_parameters(prm);
+    }
+    catch (const EntryError &error)
+    {
+      // It was thrown inside its section, and clear() would not leave that for the next Parameters (in tests).
+      leave(prm, split(error.section));
+      throw;
+    }
   }
 
   std::string Parameters::locate(const EntryError &error) const

@@ -48,8 +48,12 @@ namespace Talus
           is_at_boundary |= axes[d].has_lower_boundary || axes[d].has_upper_boundary;
         }
         if (is_at_boundary)
+        {
           this->treatment->correct_axes(axes);
-        multiply(axes, base, stencil);
+          multiply<false>(axes, base, stencil);
+        }
+        else
+          multiply<true>(axes, base, stencil);
         if (is_truncated || this->treatment->is_everywhere())
           this->treatment->correct_stencil(stencil, this->lattice->inverse_h);
       }
@@ -84,21 +88,29 @@ namespace Talus
       return base;
     }
 
+    /** The product over the axes; a complete stencil has loops of fixed length. */
+    template <bool is_complete>
     void multiply(const std::array<Axis, dim> &axes, const typename Lattice<dim>::Index &base,
                   Stencil<dim> &stencil) const
     {
+      const auto begin = [&](const unsigned int d) { return is_complete ? 0u : axes[d].begin; };
+      const auto end   = [&](const unsigned int d) { return is_complete ? Function::n : axes[d].end; };
+
       const Axis  &x = axes[0], &y = axes[1], &z = axes[dim - 1];
       const auto  *nodes  = this->lattice->node.data() + this->lattice->table_index(base);
       const auto  &stride = this->lattice->stride;
       unsigned int i      = 0;
-      for (unsigned int c = (dim == 3 ? z.begin : 0); c < (dim == 3 ? z.end : 1); ++c)
-        for (unsigned int b = y.begin; b < y.end; ++b)
+      for (unsigned int c = (dim == 3 ? begin(dim - 1) : 0); c < (dim == 3 ? end(dim - 1) : 1); ++c)
+        for (unsigned int b = begin(1); b < end(1); ++b)
         {
-          const double wyz   = y.weight[b] * (dim == 3 ? z.weight[c] : 1.);
-          const double dy_wz = y.derivative[b] * (dim == 3 ? z.weight[c] : 1.);
-          for (unsigned int a = x.begin; a < x.end; ++a, ++i)
+          const double wz    = dim == 3 ? z.weight[c] : 1.;
+          const double wyz   = y.weight[b] * wz;
+          const double dy_wz = y.derivative[b] * wz;
+          const double wy_dz = dim == 3 ? y.weight[b] * z.derivative[c] : 0.;
+          const auto  *row   = nodes + b * stride[1] + (dim == 3 ? c * stride[dim - 1] : 0);
+          for (unsigned int a = begin(0); a < end(0); ++a, ++i)
           {
-            stencil.node[i]        = nodes[a + b * stride[1] + (dim == 3 ? c * stride[dim - 1] : 0)];
+            stencil.node[i]        = row[a];
             stencil.weight[i]      = x.weight[a] * wyz;
             stencil.gradient[0][i] = x.derivative[a] * wyz;
             stencil.gradient[1][i] = x.weight[a] * dy_wz;
@@ -106,7 +118,7 @@ namespace Talus
             stencil.offset[1][i]   = y.offset[b];
             if constexpr (dim == 3)
             {
-              stencil.gradient[2][i] = x.weight[a] * y.weight[b] * z.derivative[c];
+              stencil.gradient[2][i] = x.weight[a] * wy_dz;
               stencil.offset[2][i]   = z.offset[c];
             }
           }

@@ -44,9 +44,16 @@ namespace Talus
   dealii::SymmetricTensor<2, 3, Number> jaumann_increment(const dealii::Tensor<2, 3, Number>          &grad_v_dt,
                                                           const dealii::SymmetricTensor<2, 3, Number> &stress)
   {
-    const dealii::Tensor<2, 3, Number> spin        = 0.5 * (grad_v_dt - transpose(grad_v_dt));
-    const dealii::Tensor<2, 3, Number> spin_stress = spin * dealii::Tensor<2, 3, Number>(stress);
-    // sigma . omega = -(omega . sigma)^T, so the difference is twice the symmetric part.
-    return 2. * symmetrize(spin_stress);
+    const Number xy = 0.5 * (grad_v_dt[0][1] - grad_v_dt[1][0]), xz = 0.5 * (grad_v_dt[0][2] - grad_v_dt[2][0]),
+                 yz = 0.5 * (grad_v_dt[1][2] - grad_v_dt[2][1]);
+    // omega . sigma plus its transpose, since sigma . omega = -(omega . sigma)^T.
+    dealii::SymmetricTensor<2, 3, Number> increment;
+    increment[0][0] = 2 * (xy * stress[0][1] + xz * stress[0][2]);
+    increment[1][1] = 2 * (yz * stress[1][2] - xy * stress[0][1]);
+    increment[2][2] = -2 * (xz * stress[0][2] + yz * stress[1][2]);
+    increment[0][1] = xy * (stress[1][1] - stress[0][0]) + xz * stress[1][2] + yz * stress[0][2];
+    increment[0][2] = xz * (stress[2][2] - stress[0][0]) + xy * stress[1][2] - yz * stress[0][1];
+    increment[1][2] = yz * (stress[2][2] - stress[1][1]) - xy * stress[0][2] - xz * stress[0][1];
+    return increment;
   }
 } // namespace Talus

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
-#include <deal.II/base/types.h>
+#include <deal.II/particles/particle.h>
 
 #include <array>
 #include <string>

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Talus
+{
+  /** What the user asked for. Throws InputError for what it does not understand. */
+  struct CommandLine
+  {
+    CommandLine(int argc, char **argv);
+
+    static std::string help();
+
+    std::string              file_name;
+    std::vector<std::string> overrides;
+    bool                     wants_help = false, wants_version = false, wants_list = false, prints_parameters = false;
+  };
+
+  std::string version();
+
+  /**
+   * Runs the program and turns what it throws into the exit status: 0 done, 1
+   * wrong input, 2 the run failed. The message is written once, whatever the
+   * number of ranks; an error on some ranks only ends the others too.
+   */
+  int exit_status(const std::function<void()> &program);
+} // namespace Talus

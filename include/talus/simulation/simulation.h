@@ -1,0 +1,49 @@
+#pragma once
+
+#include <talus/core/parameters.h>
+#include <talus/steppers/survey.h>
+
+namespace Talus
+{
+  /** A run: builds its parts from the parameters, then steps from start to end. */
+  template <int dim>
+  class Simulation : public dealii::ParameterAcceptor
+  {
+  public:
+    /** Builds all objects that the file chooses; parameters.parse() must follow before run(). */
+    Simulation(Parameters &parameters, MPI_Comm communicator);
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    void run();
+
+  private:
+    void   set_up();
+    bool   is_finished() const { return time >= end_time || (max_steps > 0 && step >= max_steps); }
+    void   advance();
+    double choose_step_size() const;
+
+    MPI_Comm            communicator;
+    const Parameters   &parameters;
+    dealii::TimerOutput timer;
+
+    Grid<dim>                               grid;
+    std::vector<std::unique_ptr<Material>>  materials;
+    std::vector<std::unique_ptr<Body<dim>>> bodies;
+    Particles<dim>                          particles;
+    std::unique_ptr<Kernel<dim>>            kernel;
+    std::unique_ptr<Transfer<dim>>          transfer;
+    Boundary<dim>                           boundary;
+    ParsedVector<dim>                       acceleration;
+    Model<dim>                              model;
+
+    std::string  acceleration_text;
+    double       end_time = 1, courant_number = 0.5, fixed_step_size = 0;
+    unsigned int max_steps = 0; // 0: no limit
+
+    double           time = 0, dt = 0;
+    unsigned int     step = 0;
+    Survey<dim>      now;
+    EnergyWatch<dim> energy;
+  };
+} // namespace Talus

@@ -1,0 +1,117 @@
+#include <talus/core/command_line.h>
+#include <talus/core/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  CommandLine::CommandLine(int argc, char **argv)
+  {
+    for (int i = 1; i < argc; ++i)
+    {
+      const std::string word = argv[i];
+      if (word == "--help" || word == "-h")
+        wants_help = true;
+      else if (word == "--version")
+        wants_version = true;
+      else if (word == "--list")
+        wants_list = true;
+      else if (word == "--parameters")
+        prints_parameters = true;
+      else if (word == "--set")
+      {
+        AssertThrow(i + 1 < argc, InputError("--set needs \"Section/Entry = value\" after it."));
+        overrides.push_back(argv[++i]);
+      }
+      else
+      {
+        AssertThrow(word[0] != '-', InputError("Unknown option '" + word + "'. Try talus --help."));
+        AssertThrow(file_name.empty(),
+                    InputError("Two parameter files, '" + file_name + "' and '" + word + "'. Give one."));
+        file_name = word;
+      }
+    }
+    AssertThrow(!file_name.empty() || wants_help || wants_version || wants_list,
+                InputError("No parameter file given. Try talus --help."));
+  }
+
+  std::string CommandLine::help()
+  {
+    return "Talus: the material point method on deal.II\n"
+           "\n"
+           "  talus FILE.prm [--set \"Section/Entry = value\"]...   run\n"
+           "  talus --parameters FILE.prm                         print all entries of the chosen objects, with help\n"
+           "  talus --list                                        print all kernels, transfers, materials, ...\n"
+           "  talus --help | --version\n"
+           "\n"
+           "In parallel: mpirun -n RANKS talus FILE.prm\n"
+           "Exit status: 0 done, 1 wrong input, 2 the run failed.\n";
+  }
+
+  std::string version() { return TALUS_VERSION; }
+
+  namespace
+  {
+    std::string message_of(const std::exception &error)
+    {
+      std::ostringstream text;
+      if (const auto *exception = dynamic_cast<const ExceptionBase *>(&error))
+        exception->print_info(text);
+      else
+        text << error.what();
+      std::string message = text.str();
+      while (!message.empty() && std::isspace(message.back()))
+        message.pop_back();
+      return message;
+    }
+
+    /** Whether all ranks get here within two seconds. */
+    bool all_ranks_failed()
+    {
+      MPI_Request request;
+      int         has_arrived = 0;
+      MPI_Ibarrier(MPI_COMM_WORLD, &request);
+      for (unsigned int i = 0; i < 200 && !has_arrived; ++i)
+      {
+        MPI_Test(&request, &has_arrived, MPI_STATUS_IGNORE);
+        std::this_thread::sleep_for(std::chrono::milliseconds(has_arrived ? 0 : 10));
+      }
+      return has_arrived;
+    }
+  } // namespace
+
+  int exit_status(const std::function<void()> &program)
+  {
+    int         status = 0;
+    std::string message;
+    try
+    {
+      program();
+      return 0;
+    }
+    catch (const InputError &error)
+    {
+      status  = 1;
+      message = message_of(error);
+    }
+    catch (const std::exception &error)
+    {
+      status  = 2;
+      message = message_of(error);
+    }
+    // An error that all ranks share is told by the first; of one rank's own error the others know nothing.
+    const bool is_shared = all_ranks_failed();
+    if (!is_shared || Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cerr << "talus: " << message << std::endl;
+    if (!is_shared)
+      MPI_Abort(MPI_COMM_WORLD, status);
+    return status;
+  }
+} // namespace Talus

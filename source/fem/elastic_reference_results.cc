@@ -1,0 +1,90 @@
+#include <talus/fem/elastic_reference.h>
+
+#include <deal.II/base/mpi_remote_point_evaluation.h>
+#include <deal.II/numerics/vector_tools_evaluate.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<Tensor<1, dim>> ElasticReference<dim>::displacement(const std::vector<Point<dim>> &points) const
+  {
+    Utilities::MPI::RemotePointEvaluation<dim> cache;
+    return VectorTools::point_values<dim>(mapping, dof_handler, solution, checked(points), cache);
+  }
+
+  template <int dim>
+  std::vector<SymmetricTensor<2, 3>> ElasticReference<dim>::stress(const std::vector<Point<dim>> &points) const
+  {
+    Utilities::MPI::RemotePointEvaluation<dim> cache;
+    const auto gradients = VectorTools::point_gradients<dim>(mapping, dof_handler, solution, checked(points), cache);
+
+    std::vector<SymmetricTensor<2, 3>> stresses;
+    for (const Tensor<2, dim> &grad_u : gradients)
+    {
+      SymmetricTensor<2, 3> strain; // plane strain in 2D: the third row stays zero
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          strain[i][j] = (grad_u[i][j] + grad_u[j][i]) / 2.;
+      stresses.push_back(K * trace(strain) * unit_symmetric_tensor<3>() + 2. * G * deviator(strain));
+    }
+    return stresses;
+  }
+
+  template <int dim>
+  Tensor<1, dim> ElasticReference<dim>::force(const std::string &condition) const
+  {
+    Assert(residual.size() > 0, ExcMessage("Call solve() first."));
+    std::vector<std::string> names;
+    for (const auto &known : conditions)
+      names.push_back(known->name);
+    const auto k = std::find(names.begin(), names.end(), condition) - names.begin();
+    if (k == static_cast<std::ptrdiff_t>(names.size()))
+    {
+      const std::string similar = closest(condition, names);
+      throw InputError("The elastic reference has no condition '" + condition + "'." +
+                       (similar.empty() ? "" : " Did you mean '" + similar + "'?") +
+                       " List it in 'Names' of section '" + get_section_name() +
+                       "/Conditions', or ask for one of those.");
+    }
+
+    Tensor<1, dim> force;
+    for (const auto &[dof, data] : prescribed)
+      if (data.condition == k && dof_handler.locally_owned_dofs().is_element(dof))
+        force[data.component] -= residual[dof];
+    return Utilities::MPI::sum(force, communicator);
+  }
+
+  template <int dim>
+  std::vector<Point<dim>> ElasticReference<dim>::checked(const std::vector<Point<dim>> &points) const
+  {
+    Assert(solution.size() > 0, ExcMessage("Call solve() first."));
+    const double tolerance = 1e-10 * (upper - lower).norm();
+    std::string  problem;
+    auto         moved = points;
+    for (auto &point : moved)
+    {
+      const Point<dim> given = point;
+      for (unsigned int i = 0; i < dim; ++i)
+        point[i] = std::min(std::max(given[i], lower[i]), upper[i]);
+      if (problem.empty() && !((point - given).norm() <= tolerance))
+      {
+        std::ostringstream text;
+        text << "The point (" << given << ") lies outside the box of the elastic reference, from (" << lower << ") to ("
+             << upper << "). Enlarge the box in section '" << get_section_name() << "'.";
+        problem = text.str();
+      }
+    }
+    // The rank that found it tells the others: all must throw.
+    for (const auto &found : Utilities::MPI::all_gather(communicator, problem))
+      AssertThrow(found.empty(), InputError(found));
+    return moved;
+  }
+
+  template class ElasticReference<2>;
+  template class ElasticReference<3>;
+} // namespace Talus
