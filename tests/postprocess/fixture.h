@@ -40,7 +40,7 @@ namespace Test
     return list;
   }
 
-  inline std::vector<double> numbers(const std::string &row)
+  inline std::vector<double> read_numbers(const std::string &row)
   {
     std::vector<double> values;
     for (const auto &text : dealii::Utilities::split_string_list(row, ','))
@@ -80,7 +80,7 @@ namespace Test
       materials.push_back(Registry<Material>::get().make("linear elastic", "/Materials/m"));
       bodies.push_back(std::make_unique<Body<dim>>(parameters, "b", std::vector<std::string>{"m"}));
       parameters.parse();
-      bodies[0]->shape->create({});
+      bodies[0]->shape->create(grid.lattice.h);
     }
 
     void create()

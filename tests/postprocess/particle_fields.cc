@@ -151,7 +151,7 @@ namespace
     unsigned int n_disorder = 0;
     for (unsigned int i = 2; i < table.size(); ++i)
     {
-      const auto   row = numbers(table[i]);
+      const auto   row = read_numbers(table[i]);
       const double id  = row[0];
       n_disorder += id <= previous;
       previous = id;

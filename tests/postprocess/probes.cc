@@ -38,7 +38,7 @@ namespace
                table[0].find("time [time],tip_position_x [length],tip_position_y [length],") == 0 &&
                  table[0].find(",tip_stress_xx [stress]") != std::string::npos &&
                  table[0].find(",corner_distance [length],corner_position_x [length]") != std::string::npos);
-    const auto         first = numbers(table[1]), second = numbers(table[2]);
+    const auto         first = read_numbers(table[1]), second = read_numbers(table[2]);
     const unsigned int n = 2 * dim + particles.n_stress; // columns of a particle
     check_true("all columns" + d, first.size() == 2 + 2 * n);
     const double last = particles.n_global - 1; // id of the last lattice point, at the corner

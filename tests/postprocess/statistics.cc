@@ -21,7 +21,8 @@ void test_statistics()
   statistics.write_row({0.2, 2, -1e-300});
   const auto table = lines(path);
   check_true("names and units", table[0] == "time [time],step [1],kinetic energy [energy]");
-  check_true("all digits", table.size() == 3 && numbers(table[2])[2] == -1e-300 && numbers(table[1])[2] == 1. / 3);
+  check_true("all digits",
+             table.size() == 3 && read_numbers(table[2])[2] == -1e-300 && read_numbers(table[1])[2] == 1. / 3);
   check_throws<RunError>("a number that is not finite", "'kinetic energy' is not a finite number when time = 0.3",
                          [&] {
                            statistics.write_row({0.3, 3, std::nan("")});
