@@ -145,7 +145,7 @@ namespace
 
     const std::string file = run.output.directory() + "/particles_00001.vtu";
     check_true("a point for each particle" + d, count_points(file) == run.particles.n_global);
-    const unsigned int n_cells = Utilities::fixed_power<dim>(8);
+    const unsigned int n_cells = 16 * Utilities::fixed_power<dim - 1>(4);
     check_true("grid cells with their corners" + d,
                count_points(run.output.directory() + "/grid_00001.vtu") == n_cells * (1 << dim));
     for (const char *name :
