@@ -1,0 +1,36 @@
+#pragma once
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+
+namespace Talus
+{
+  /**
+   * A vector-valued function of x, y, z, t from the parameter file, evaluated by
+   * muParser: "expression; expression", one for each component.
+   */
+  template <int dim>
+  class ParsedVector
+  {
+  public:
+    /** Sets the function; a bad expression is blamed on `entry` of `section` by an EntryError. */
+    void initialize(const std::string &expressions, const std::string &section, const std::string &entry);
+
+    /** Value at `x` and `time`. */
+    dealii::Tensor<1, dim> value(const dealii::Point<dim> &x, const double time) const;
+
+    bool is_zero() const { return zero; }
+    bool depends_on_space() const { return varies; }
+
+  private:
+    std::unique_ptr<dealii::FunctionParser<dim>> parser;
+    bool                                         zero   = true;
+    bool                                         varies = false;
+  };
+
+  /** True when `name` stands in `expression` as a whole word. */
+  bool uses_variable(const std::string &expression, const std::string &name);
+} // namespace Talus

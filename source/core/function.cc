@@ -1,0 +1,63 @@
+#include <talus/core/exceptions.h>
+#include <talus/core/function.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <regex>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  bool uses_variable(const std::string &expression, const std::string &name)
+  {
+    return std::regex_search(expression, std::regex("\\b" + name + "\\b"));
+  }
+
+  template <int dim>
+  void ParsedVector<dim>::initialize(const std::string &expressions, const std::string &section,
+                                     const std::string &entry)
+  {
+    const auto list = Utilities::split_string_list(expressions, ';');
+    if (list.size() != dim)
+      throw EntryError(section, entry,
+                       "expected " + std::to_string(dim) + " expressions separated by ';', found " +
+                         std::to_string(list.size()) + " in '" + expressions + "'.");
+    zero   = true;
+    varies = false;
+    for (const auto &expression : list)
+    {
+      zero = zero && (expression == "0" || expression == "0.");
+      for (unsigned int d = 0; d < dim; ++d)
+        varies = varies || uses_variable(expression, std::string(1, "xyz"[d]));
+    }
+
+    const std::string variables = (dim == 2) ? "x,y,t" : "x,y,z,t";
+    parser                      = std::make_unique<FunctionParser<dim>>(dim);
+    try
+    {
+      parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
+      value(Point<dim>(), 0.);
+    }
+    catch (const ExceptionBase &)
+    {
+      throw EntryError(section, entry,
+                       "cannot understand '" + expressions + "'. Use " + variables +
+                         ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
+    }
+  }
+
+  template <int dim>
+  Tensor<1, dim> ParsedVector<dim>::value(const Point<dim> &x, const double time) const
+  {
+    Tensor<1, dim> v;
+    parser->set_time(time);
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = parser->value(x, d);
+    return v;
+  }
+
+  template class ParsedVector<2>;
+  template class ParsedVector<3>;
+} // namespace Talus
