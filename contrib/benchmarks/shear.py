@@ -98,7 +98,8 @@ def scheme_figures(result):
 
 
 def figures(results):
-    anchor = abs(results[0].value("reference force x", "bottom"))
+    anchor = next((abs(result.value("reference force x", "bottom")) for result in results if result.status == 0),
+                  math.nan)
     list_of_figures = [report.near("FEM, 80 x 80 Q2, |Fx|/L", anchor, 25914, 0.0005 * 25914, "N/m")]
     for result in results:
         list_of_figures += scheme_figures(result)

@@ -4,7 +4,7 @@
     runs()            the list of runs.Run
     table(results)    a list of dictionaries, one per row of table.csv
     figures(results)  the acceptance figures, a list of report.Figure
-    draw(results, path)
+    draw(results, path)   writes a figure, or nothing if too many runs have failed
 
 where `results` has a runs.Result for each run, failed ones too. A file shear_3d.py is the benchmark shear-3d.
 """
@@ -31,6 +31,8 @@ def load(name):
 def reproduce(name, arguments):
     benchmark = load(name)
     directory = pathlib.Path(arguments.output or runs.ROOT / "reproduce" / name)
+    for old in ("table.csv", "figure.png"):
+        (directory / old).unlink(missing_ok=True)
     results = runs.execute_all(benchmark.runs(), directory / "runs", arguments.jobs, arguments.ranks)
     rows = benchmark.table(results)
     report.write_csv(directory / "table.csv", rows)
@@ -41,7 +43,7 @@ def reproduce(name, arguments):
     benchmark.draw(results, directory / "figure.png")
     failed = sum(not figure.passes for figure in figures)
     print(f"\n{len(figures) - failed} of {len(figures)} acceptance figures pass. "
-          f"See {directory}/table.csv and figure.png.")
+          f"See {', '.join(str(path) for path in sorted(directory.glob('*.*')))}.")
     return 1 if failed else 0
 
 
