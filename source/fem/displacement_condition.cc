@@ -1,10 +1,10 @@
 #include <talus/fem/displacement_condition.h>
 
+#include <talus/core/function.h>
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
-
-#include <sstream>
 
 namespace Talus
 {
@@ -50,20 +50,17 @@ namespace Talus
       throw EntryError(section, "Displacement",
                        "'" + formulas + "' has " + std::to_string(list.size()) + " formulas, expected " +
                          std::to_string(dim) + " separated by ';', one for each direction.");
-    try
-    {
-      displacement.initialize(dim == 2 ? "x,y,t" : "x,y,z,t", list, {{"pi", numbers::PI}}, true);
-      for (unsigned int component = 0; component < dim; ++component)
-        displacement.value(Point<dim>(), component); // a formula is only read when it is first evaluated
-    }
-    catch (const ExceptionBase &error)
-    {
-      std::ostringstream reason;
-      error.print_info(reason);
+    const std::string reason = formula_error(
+      [&]
+      {
+        displacement.initialize(dim == 2 ? "x,y,t" : "x,y,z,t", list, {{"pi", numbers::PI}}, true);
+        for (unsigned int component = 0; component < dim; ++component)
+          displacement.value(Point<dim>(), component); // a formula is only read when it is first evaluated
+      });
+    if (!reason.empty())
       throw EntryError(section, "Displacement",
-                       "cannot read '" + formulas + "'. Write formulas of " + (dim == 2 ? "x, y, t" : "x, y, z, t") +
-                         " in muParser's syntax, for example 0.1*t*sin(pi*x). " + Utilities::trim(reason.str()));
-    }
+                       "cannot understand '" + formulas + "': " + reason + ". Write formulas of " +
+                         (dim == 2 ? "x, y, t" : "x, y, z, t") + " in muParser's syntax, for example 0.1*t*sin(pi*x).");
   }
 
   template class DisplacementCondition<2>;

@@ -52,7 +52,7 @@ void errors()
              Test::conditions("floor", Test::condition("floor", "2", "0; 0", "z")));
   check_text("one formula", "has 1 formulas, expected 2 separated by ';'",
              Test::conditions("floor", Test::condition("floor", "2", "0")));
-  check_text("formula that cannot be read", "The parser said: Unexpected token \"w\"",
+  check_text("formula that cannot be read", "Unexpected token \"w\"",
              Test::conditions("floor", Test::condition("floor", "2", "0; 2*w")));
   check_text("condition without a name in the list", "list 'roof' in 'Names'",
              Test::conditions("floor", good + Test::condition("roof", "3", "0; 0")));
