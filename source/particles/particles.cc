@@ -145,9 +145,11 @@ namespace Talus
   template <int dim>
   void Particles<dim>::set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift)
   {
+    // deal.II loses a particle beyond this rank's ghost cells, so one must be noticed well before: linear functions
+    // (n = 2), which could do with the ghost cell alone, keep the distance of the quadratic ones.
     this->grid    = &grid;
-    coverage      = grid.lattice.coverage(n);
-    stencil_shift = shift;
+    coverage      = grid.lattice.coverage(std::max(n, 3u));
+    stencil_shift = n < 3 ? 0.5 : shift;
   }
 
   template <int dim>
