@@ -44,9 +44,9 @@ namespace Talus
       body.shape->visit(cell->bounding_box(),
                         [&](const unsigned int i, const Point<dim> &x, const double volume)
                         {
-                          if (cell_index(grid.lattice, &x[0]) == index)
-                            visitor(i, x, volume);
-                        });
+        if (cell_index(grid.lattice, &x[0]) == index)
+          visitor(i, x, volume);
+      });
     }
 
     /** Throws unless all points of the body lie in the grid. Looks beyond the grid's faces only; all ranks alike. */
@@ -118,13 +118,13 @@ namespace Talus
           visit_cell(grid, body, cell,
                      [&](const unsigned int i, const Point<dim> &x, const double volume)
                      {
-                       const Point<dim> location = inside_cell(grid.lattice, &x[0]);
-                       body.initialize(x, volume, *materials[body.material], *this, properties);
-                       home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location),
-                                             body.first_id + i, cell, make_array_view(properties));
-                       largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
-                       ++n_created[b];
-                     });
+            const Point<dim> location = inside_cell(grid.lattice, &x[0]);
+            body.initialize(x, volume, *materials[body.material], *this, properties);
+            home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,
+                                  cell, make_array_view(properties));
+            largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
+            ++n_created[b];
+          });
     }
     home->update_cached_numbers();
 

@@ -134,9 +134,9 @@ namespace Talus
     run_on_root(
       [&]
       {
-        AssertThrow(is_complete_vtu(temporary), failure);
-        rename_file(temporary, final_name);
-        write_series(name);
+      AssertThrow(is_complete_vtu(temporary), failure);
+      rename_file(temporary, final_name);
+      write_series(name);
       },
       communicator);
   }

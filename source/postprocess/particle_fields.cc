@@ -101,9 +101,9 @@ namespace Talus
       add("displacement", "length", dim,
           [](const Set &set, const unsigned int p, double *u)
           {
-            for (unsigned int d = 0; d < dim; ++d)
-              u[d] = set.component(set.position, d)[p] - set.component(set.initial_position, d)[p];
-          });
+        for (unsigned int d = 0; d < dim; ++d)
+          u[d] = set.component(set.position, d)[p] - set.component(set.initial_position, d)[p];
+      });
       // sqrt(3/2) |s|
       add("von Mises stress", "stress", 1,
           [](const Set &set, const unsigned int p, double *value)
@@ -132,8 +132,8 @@ namespace Talus
       all.push_back({name, unit_of(name), component_names(name, dim, n), n == dim,
                      [f, n](const WorkingSet<dim> &set, const unsigned int p, double *values)
                      {
-                       for (unsigned int c = 0; c < n; ++c)
-                         values[c] = set.component(f, c)[p];
+        for (unsigned int c = 0; c < n; ++c)
+          values[c] = set.component(f, c)[p];
                      }});
     }
     // A field that a material or transfer stores is taken before a derived one of the same name.

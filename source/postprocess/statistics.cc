@@ -18,12 +18,12 @@ namespace Talus
     run_on_root(
       [&]
       {
-        std::string header;
-        for (const auto &column : columns)
-          header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
-        file.open(path);
-        file << header << std::endl;
-        AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
+      std::string header;
+      for (const auto &column : columns)
+        header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
+      file.open(path);
+      file << header << std::endl;
+      AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
       },
       communicator);
   }

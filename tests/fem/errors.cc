@@ -50,9 +50,9 @@ void errors()
              Test::conditions("floor", Test::condition("floor", "4", "0; 0")));
   check_text("component z in 2D", "'z' is not a valid value",
              Test::conditions("floor", Test::condition("floor", "2", "0; 0", "z")));
-  check_text("one formula", "has 1 formulas, expected 2 separated by ';'",
+  check_text("one formula", "expected 2 expressions separated by ';', found 1",
              Test::conditions("floor", Test::condition("floor", "2", "0")));
-  check_text("formula that cannot be read", "Unexpected token \"w\"",
+  check_text("formula that cannot be read", "cannot understand '0; 2*w'",
              Test::conditions("floor", Test::condition("floor", "2", "0; 2*w")));
   check_text("condition without a name in the list", "list 'roof' in 'Names'",
              Test::conditions("floor", good + Test::condition("roof", "3", "0; 0")));

@@ -13,7 +13,7 @@ namespace Talus
    * |-------------------|------------------------|------------------------|
    * | 0                 | m_i [mass]             | m_i                    |
    * | 1 .. dim          | momentum m_i v_i^n     | velocity v_i^{n+1}     |
-   * | dim+1 .. 2 dim    | force f_i              | old velocity v_i^n     |
+   * | dim+1 .. 2 dim    | force f_i              | v_i^{n+1} - v_i^n      |
    *
    * Owned nodes come first, then the copies of nodes that other ranks own; one
    * message per neighbour exchanges everything.
@@ -22,12 +22,12 @@ namespace Talus
   class NodalFields
   {
   public:
-    static constexpr unsigned int stride       = 8;
-    static constexpr unsigned int mass         = 0;
-    static constexpr unsigned int momentum     = 1;
-    static constexpr unsigned int velocity     = 1;
-    static constexpr unsigned int force        = 1 + dim;
-    static constexpr unsigned int old_velocity = 1 + dim;
+    static constexpr unsigned int stride    = 8;
+    static constexpr unsigned int mass      = 0;
+    static constexpr unsigned int momentum  = 1;
+    static constexpr unsigned int velocity  = 1;
+    static constexpr unsigned int force     = 1 + dim;
+    static constexpr unsigned int increment = 1 + dim;
 
     void reinit(const dealii::IndexSet &owned_nodes, const dealii::IndexSet &relevant_nodes, MPI_Comm communicator);
 
