@@ -60,9 +60,9 @@ namespace Talus
     const std::string reason    = formula_error(
       [&]
       {
-        parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
-        value(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
-      });
+      parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
+      value(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
+    });
     if (!reason.empty())
       throw EntryError(section, entry,
                        "cannot understand '" + expressions + "': " + reason + ". Use " + variables +

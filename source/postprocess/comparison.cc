@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/function.h>
 #include <talus/materials/linear_elastic.h>
 #include <talus/postprocess/comparison.h>
 
