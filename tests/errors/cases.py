@@ -148,7 +148,7 @@ CASES = {
              files={"points.txt": "0.5 o.5 0.01\n"}),
         Case("NaN", [(BOX, POINTS)], ["points.txt:1: ", "'nan' is not a finite number", "Correct"],
              files={"points.txt": "0.5 nan 0.01\n"}),
-        Case("negative volume", [(BOX, POINTS)], ["points.txt:1: ", "the volume.* must be positive", "Correct"],
+        Case("negative volume", [(BOX, POINTS)], ["points.txt:1: ", "the volume must be positive", "Correct"],
              files={"points.txt": "0.5 0.5 -0.01\n"}),
         Case("no points", [(BOX, POINTS)], [POINTS_ENTRY, "the body is empty", "contains no points"],
              files={"points.txt": "# x y volume\n"}),
