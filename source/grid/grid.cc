@@ -225,7 +225,7 @@ namespace Talus
         // Empty nodes keep v = 0: dividing by m_i = 0 would spread NaN.
         for (unsigned int d = 0; d < dim; ++d)
         {
-          lost_momentum[d] += values[Fields::momentum + d];
+          lost_momentum[d] += values[Fields::momentum + d] + dt * values[Fields::force + d];
           values[Fields::velocity + d] = values[Fields::increment + d] = 0;
         }
     }

@@ -77,7 +77,9 @@ namespace Talus
       value(set.position, d) = value(set.initial_position, d) = x[d];
       value(set.velocity, d)                                  = v[d];
       if (!std::isfinite(v[d]))
-        throw EntryError(get_section_name(), "Velocity", "it has no finite value at a particle.");
+        throw EntryError(get_section_name(), "Velocity",
+                         "it has no finite value at the particle at " + to_text<dim>(x) +
+                           ". Correct the function, or move the body.");
     }
     for (unsigned int c = 0; c < velocity_gradient.size(); ++c)
       value(set.grad_v, c) = velocity_gradient[c];

@@ -48,6 +48,35 @@ namespace Talus
           visitor(i, x, volume);
       });
     }
+
+    /** Throws unless all points of the body lie in the grid. Looks beyond the grid's faces only; all ranks alike. */
+    template <int dim>
+    void check_inside(const Grid<dim> &grid, const Body<dim> &body)
+    {
+      constexpr double far  = 1e300;
+      const auto       look = [&](const unsigned int, const Point<dim> &x, const double)
+      {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
+        if (!is_inside)
+          throw EntryError(body.get_section_name(), body.shape->position_entry(),
+                           "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
+                             to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
+                             ", upper faces excluded. Move the body, or enlarge the grid.");
+      };
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        Point<dim> lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = -far;
+          upper[d] = far;
+        }
+        (face % 2 == 0 ? upper : lower)[face / 2] = (face % 2 == 0 ? grid.lower : grid.upper)[face / 2];
+        body.shape->visit(BoundingBox<dim>({lower, upper}), look);
+      }
+    }
   } // namespace
 
   template <int dim>
@@ -75,7 +104,8 @@ namespace Talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      body.first_id   = next_id;
+      check_inside(grid, body);
+      body.first_id = next_id;
       next_id += body.shape->n_indices();
       AssertThrow(
         next_id <= std::numeric_limits<types::particle_index>::max(),
@@ -103,8 +133,8 @@ namespace Talus
     {
       if (n_created[b] == 0)
         throw EntryError(
-          bodies[b]->get_section_name(), "Shape",
-          "the body is empty: no particle lies in it and in the grid. Check its corners or its particles per cell.");
+          bodies[b]->get_section_name(), bodies[b]->shape->position_entry(),
+          "the body is empty: no particle lies in it. Check its corners, its lattice offset or its particles per cell.");
       n_global += n_created[b];
     }
     // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
@@ -115,9 +145,11 @@ namespace Talus
   template <int dim>
   void Particles<dim>::set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift)
   {
+    // deal.II loses a particle beyond this rank's ghost cells, so one must be noticed well before: linear functions
+    // (n = 2), which could do with the ghost cell alone, keep the distance of the quadratic ones.
     this->grid    = &grid;
-    coverage      = grid.lattice.coverage(n);
-    stencil_shift = shift;
+    coverage      = grid.lattice.coverage(std::max(n, 3u));
+    stencil_shift = n < 3 ? 0.5 : shift;
   }
 
   template <int dim>

@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/function.h>
 #include <talus/materials/linear_elastic.h>
 #include <talus/postprocess/comparison.h>
 
@@ -20,17 +21,16 @@ namespace Talus
   template <int dim>
   void Region<dim>::parse_parameters(ParameterHandler &)
   {
-    try
-    {
-      parser.initialize(dim == 2 ? "x,y" : "x,y,z", expression, {{"pi", numbers::PI}});
-      parser.value(Point<dim>());
-    }
-    catch (const ExceptionBase &)
-    {
+    const std::string reason = formula_error(
+      [&]
+      {
+        parser.initialize(dim == 2 ? "x,y" : "x,y,z", expression, {{"pi", numbers::PI}});
+        parser.value(Point<dim>());
+      });
+    if (!reason.empty())
       throw EntryError(get_section_name(), "Where",
-                       "cannot understand '" + expression + "'. Write a condition on " +
+                       "cannot understand '" + expression + "': " + reason + ". Write a condition on " +
                          (dim == 2 ? "x, y" : "x, y, z") + " with <, >, &&, ||, abs, ...");
-    }
   }
 
   template <int dim>

@@ -158,7 +158,7 @@ namespace Talus
     row.push_back(energy.body_force_work);
     row.push_back(energy.condition_work);
     for (unsigned int d = 0; d < dim; ++d)
-      row.push_back(now.lost_momentum[d]);
+      row.push_back(lost_momentum[d]);
     for (const auto &reaction : now.reactions)
       row.insert(row.end(), reaction.begin_raw(), reaction.end_raw());
     statistics.write_row(row);
@@ -243,9 +243,10 @@ namespace Talus
 
     TimerOutput::Scope scope(timer, "survey");
     now = survey(model, time, dt);
+    lost_momentum += now.lost_momentum;
     if (now.has_failed)
       report_failure(model, step, time, dt);
-    energy.check(now, step, time, dt);
+    energy.check(model, now, step, time, dt);
   }
 
   template class Simulation<2>;

@@ -65,9 +65,10 @@ namespace Talus
     double       end_time = 1, courant_number = 0.5, fixed_step_size = 0;
     unsigned int max_steps = 0; // 0: no limit
 
-    double           time = 0, dt = 0;
-    unsigned int     step = 0;
-    Survey<dim>      now;
-    EnergyWatch<dim> energy;
+    double                 time = 0, dt = 0;
+    unsigned int           step = 0;
+    Survey<dim>            now;
+    EnergyWatch<dim>       energy;
+    dealii::Tensor<1, dim> lost_momentum; // by empty nodes since the start [mass length/time]
   };
 } // namespace Talus
