@@ -79,8 +79,7 @@ namespace Talus
                     InputError(where + ": expected " + std::to_string(dim + 1) + " numbers (" +
                                (dim == 2 ? "x y volume" : "x y z volume") + "), found " +
                                std::to_string(numbers.size()) + ". Complete or remove the line."));
-        AssertThrow(numbers.back() > 0,
-                    InputError(where + ": the volume must be positive. Correct the last number."));
+        AssertThrow(numbers.back() > 0, InputError(where + ": the volume must be positive. Correct the last number."));
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = numbers[d];

@@ -35,9 +35,9 @@ namespace Talus
 
     void initialize(const Kernel<dim> &kernel, WorkingSet<dim> &particles) const override
     {
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       { scheme.initialize(particles, p, stencil); });
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
+        scheme.initialize(particles, p, stencil);
+      });
     }
 
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
@@ -45,9 +45,7 @@ namespace Talus
     {
       const auto x = particles.template components<dim>(particles.position);
       auto       b = acceleration.value({}, time);
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
         if (acceleration.depends_on_space())
         {
           dealii::Point<dim> x_p;
@@ -64,9 +62,7 @@ namespace Talus
     {
       const auto x      = particles.template components<dim>(particles.position);
       const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
         const Gathered<dim> sum = gather(stencil, grid.fields);
         for (unsigned int d = 0; d < dim; ++d)
         {
