@@ -81,8 +81,7 @@ namespace
 
 void test_is_due()
 {
-  const auto compare = [](const std::string &name, const std::string &entries, const std::string &expected)
-  {
+  const auto compare = [](const std::string &name, const std::string &entries, const std::string &expected) {
     const std::string steps = due_steps(entries);
     check_true(name + ": " + steps, steps == expected);
   };
@@ -203,12 +202,10 @@ void test_vtu()
              std::abs(patch.data(0, 0) - particles.id[p]) + std::abs(patch.data(3, 0) - (2. + particles.id[p]));
   }
   check_true("each point has its particle's values", data.get_patches().size() == particles.size() && error == 0);
-  check_throws<EntryError>("an unknown field", "Choices: position, velocity",
-                           []
-                           {
-                             Fixture<2> run("set Particle fields = colour\n");
-                             run.output.check(run.particles);
-                           });
+  check_throws<EntryError>("an unknown field", "Choices: position, velocity", [] {
+    Fixture<2> run("set Particle fields = colour\n");
+    run.output.check(run.particles);
+  });
 }
 
 namespace

@@ -74,8 +74,7 @@ void test_probes()
 void test_probe_errors()
 {
   const std::string base = scratch();
-  const auto        open = [&](const std::string &entries)
-  {
+  const auto        open = [&](const std::string &entries) {
     Fixture<2> run("subsection Probes\nset Names = a\n" + entries + "end\n");
     run.create();
     run.probes.open(base, run.particles, run.grid);
