@@ -4,7 +4,9 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <iostream>
 #include <regex>
+#include <sstream>
 
 namespace Talus
 {
@@ -13,6 +15,26 @@ namespace Talus
   bool uses_variable(const std::string &expression, const std::string &name)
   {
     return std::regex_search(expression, std::regex("\\b" + name + "\\b"));
+  }
+
+  std::string formula_error(const std::function<void()> &read)
+  {
+    std::ostringstream dropped, reason;
+    std::streambuf    *terminal = std::cerr.rdbuf(dropped.rdbuf());
+    try
+    {
+      read();
+    }
+    catch (const ExceptionBase &error)
+    {
+      error.print_info(reason);
+    }
+    std::cerr.rdbuf(terminal);
+    const std::string said = "The parser said:";
+    std::string       text = reason.str();
+    if (const auto position = text.find(said); position != std::string::npos)
+      text = text.substr(position + said.size());
+    return Utilities::trim(std::regex_replace(text, std::regex("\\s+"), " "));
   }
 
   template <int dim>
@@ -35,17 +57,14 @@ namespace Talus
 
     const std::string variables = (dim == 2) ? "x,y,t" : "x,y,z,t";
     parser                      = std::make_unique<FunctionParser<dim>>(dim);
-    try
-    {
+    const std::string reason    = formula_error([&] {
       parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
-      value(Point<dim>(), 0.);
-    }
-    catch (const ExceptionBase &)
-    {
+      value(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
+    });
+    if (!reason.empty())
       throw EntryError(section, entry,
-                       "cannot understand '" + expressions + "'. Use " + variables +
+                       "cannot understand '" + expressions + "': " + reason + ". Use " + variables +
                          ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
-    }
   }
 
   template <int dim>

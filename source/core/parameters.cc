@@ -1,5 +1,7 @@
 #include <talus/core/parameters.h>
 
+#include <talus/core/pattern_text.h>
+
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -278,6 +280,8 @@ namespace Talus
     Parameters               declared;
     std::vector<std::string> path, siblings, known_sections;
     declared.scan(in, "declared", path);
+    // Entering it to set the entry has made the section itself known.
+    declared.sections.erase(parent(key));
     for (const auto &other : declared.settings)
       if (parent(other.first) == parent(key))
         siblings.push_back(leaf(other.first));
@@ -329,15 +333,8 @@ namespace Talus
       leave(prm, path);
       if (!is_known)
         reject_unknown(key, setting);
-      // The pattern stands between the first and the last bracket.
-      const auto bracket = problem.find('['), closing = problem.rfind(']');
-      AssertThrow(
-        problem.empty(),
-        InputError(
-          setting.origin + ": " + describe(key) + ": '" + setting.value + "' is not a valid value. Expected " +
-          Utilities::trim(Utilities::replace_in_string(
-            bracket == std::string::npos ? problem : problem.substr(bracket, closing + 1 - bracket), "\n", " ")) +
-          "."));
+      AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + setting.value +
+                                              "' is not a valid value. Give " + describe_pattern(problem) + "."));
     }
     try
     {

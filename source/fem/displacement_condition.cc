@@ -1,10 +1,7 @@
 #include <talus/fem/displacement_condition.h>
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
-
-#include <sstream>
 
 namespace Talus
 {
@@ -17,7 +14,7 @@ namespace Talus
 
   template <int dim>
   DisplacementCondition<dim>::DisplacementCondition(const std::string &section, const std::string &name) :
-    ParameterAcceptor(section), name(name), displacement(dim), component_names(dim == 2 ? "x, y" : "x, y, z"),
+    ParameterAcceptor(section), name(name), component_names(dim == 2 ? "x, y" : "x, y, z"),
     formulas(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     add_parameter("Boundary ids", boundary_ids,
@@ -45,25 +42,7 @@ namespace Talus
     for (const auto &axis : Utilities::split_string_list(component_names))
       components.push_back(axes.find(axis));
 
-    const auto list = Utilities::split_string_list(formulas, ';');
-    if (list.size() != dim)
-      throw EntryError(section, "Displacement",
-                       "'" + formulas + "' has " + std::to_string(list.size()) + " formulas, expected " +
-                         std::to_string(dim) + " separated by ';', one for each direction.");
-    try
-    {
-      displacement.initialize(dim == 2 ? "x,y,t" : "x,y,z,t", list, {{"pi", numbers::PI}}, true);
-      for (unsigned int component = 0; component < dim; ++component)
-        displacement.value(Point<dim>(), component); // a formula is only read when it is first evaluated
-    }
-    catch (const ExceptionBase &error)
-    {
-      std::ostringstream reason;
-      error.print_info(reason);
-      throw EntryError(section, "Displacement",
-                       "cannot read '" + formulas + "'. Write formulas of " + (dim == 2 ? "x, y, t" : "x, y, z, t") +
-                         " in muParser's syntax, for example 0.1*t*sin(pi*x). " + Utilities::trim(reason.str()));
-    }
+    displacement.initialize(formulas, section, "Displacement");
   }
 
   template class DisplacementCondition<2>;

@@ -127,13 +127,14 @@ namespace Talus
     prescribed.clear();
     for (unsigned int k = 0; k < conditions.size(); ++k)
     {
-      auto &condition = *conditions[k];
-      condition.displacement.set_time(time);
-      std::map<types::boundary_id, const Function<dim> *> functions;
-      for (const unsigned int id : condition.boundary_ids)
-        functions[id] = &condition.displacement;
+      const auto &condition = *conditions[k];
       for (const unsigned int component : condition.components)
       {
+        const VectorFunctionFromScalarFunctionObject<dim> displacement(
+          [&](const Point<dim> &x) { return condition.displacement.value(x, time)[component]; }, component, dim);
+        std::map<types::boundary_id, const Function<dim> *> functions;
+        for (const unsigned int id : condition.boundary_ids)
+          functions[id] = &displacement;
         ComponentMask mask(dim, false);
         mask.set(component, true);
         std::map<types::global_dof_index, double> values;

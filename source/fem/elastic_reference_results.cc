@@ -36,6 +36,12 @@ namespace Talus
   }
 
   template <int dim>
+  bool ElasticReference<dim>::has_condition(const std::string &condition) const
+  {
+    return std::any_of(conditions.begin(), conditions.end(), [&](const auto &c) { return c->name == condition; });
+  }
+
+  template <int dim>
   Tensor<1, dim> ElasticReference<dim>::force(const std::string &condition) const
   {
     Assert(residual.size() > 0, ExcMessage("Call solve() first."));

@@ -125,8 +125,8 @@ namespace Talus
 
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
     {
-      const auto connection = triangulation.signals.weight.connect([&](const auto &cell, const auto)
-                                                                   { return 1 + weight(CellIterator(cell)); });
+      const auto connection = triangulation.signals.weight.connect(
+        [&](const auto &cell, const auto) { return 1 + weight(CellIterator(cell)); });
       triangulation.repartition();
       connection.disconnect();
     }
@@ -216,17 +216,17 @@ namespace Talus
       if (m > mass_floor)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double v                   = values[Fields::momentum + d] / m;
-          const double dv                  = dt * values[Fields::force + d] / m;
-          values[Fields::old_velocity + d] = v;
-          values[Fields::velocity + d]     = v + dv;
+          const double v                = values[Fields::momentum + d] / m;
+          const double dv               = dt * values[Fields::force + d] / m;
+          values[Fields::velocity + d]  = v + dv;
+          values[Fields::increment + d] = dv;
         }
       else
         // Empty nodes keep v = 0: dividing by m_i = 0 would spread NaN.
         for (unsigned int d = 0; d < dim; ++d)
         {
-          lost_momentum[d] += values[Fields::momentum + d];
-          values[Fields::velocity + d] = values[Fields::old_velocity + d] = 0;
+          lost_momentum[d] += values[Fields::momentum + d] + dt * values[Fields::force + d];
+          values[Fields::velocity + d] = values[Fields::increment + d] = 0;
         }
     }
   }

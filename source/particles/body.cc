@@ -68,8 +68,9 @@ namespace Talus
   {
     for (const auto &field : set.fields)
       std::copy(field.initial.begin(), field.initial.end(), properties.begin() + field.first);
-    const auto value = [&](const unsigned int field, const unsigned int c) -> double &
-    { return properties[set.fields[field].first + c]; };
+    const auto value = [&](const unsigned int field, const unsigned int c) -> double & {
+      return properties[set.fields[field].first + c];
+    };
 
     const Tensor<1, dim> v = velocity.value(x, 0.);
     for (unsigned int d = 0; d < dim; ++d)
@@ -77,7 +78,9 @@ namespace Talus
       value(set.position, d) = value(set.initial_position, d) = x[d];
       value(set.velocity, d)                                  = v[d];
       if (!std::isfinite(v[d]))
-        throw EntryError(get_section_name(), "Velocity", "it has no finite value at a particle.");
+        throw EntryError(get_section_name(), "Velocity",
+                         "it has no finite value at the particle at " + to_text<dim>(x) +
+                           ". Correct the function, or move the body.");
     }
     for (unsigned int c = 0; c < velocity_gradient.size(); ++c)
       value(set.grad_v, c) = velocity_gradient[c];

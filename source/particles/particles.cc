@@ -42,38 +42,38 @@ namespace Talus
                     const Visitor &visitor)
     {
       const auto index = cell_index(grid.lattice, &cell->center()[0]);
-      body.shape->visit(cell->bounding_box(),
-                        [&](const unsigned int i, const Point<dim> &x, const double volume)
-                        {
-                          if (cell_index(grid.lattice, &x[0]) == index)
-                            visitor(i, x, volume);
-                        });
+      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, const Point<dim> &x, const double volume) {
+        if (cell_index(grid.lattice, &x[0]) == index)
+          visitor(i, x, volume);
+      });
     }
 
-    /** Throws for an empty body and for one that does not lie in the grid; every rank looks at all its points. */
+    /** Throws unless all points of the body lie in the grid. Looks beyond the grid's faces only; all ranks alike. */
     template <int dim>
-    void check_body(const Grid<dim> &grid, const Body<dim> &body)
+    void check_inside(const Grid<dim> &grid, const Body<dim> &body)
     {
-      std::uint64_t      n_points = 0, n_outside = 0;
-      std::ostringstream example;
-      body.shape->visit(body.shape->bounding_box(),
-                        [&](const unsigned int, const Point<dim> &x, const double)
-                        {
-                          ++n_points;
-                          bool is_inside = true;
-                          for (unsigned int d = 0; d < dim; ++d)
-                            is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
-                          if (!is_inside && n_outside++ == 0)
-                            example << x;
-                        });
-      if (n_points == 0)
-        throw EntryError(body.get_section_name(), "Shape",
-                         "the body is empty: no particle lies in it. Check its extent or its particles per cell.");
-      if (n_outside > 0)
-        throw EntryError(body.get_section_name(), "Shape",
-                         std::to_string(n_outside) + " of its " + std::to_string(n_points) +
-                           " particles lie outside the grid, the first at (" + example.str() +
-                           "). Enlarge the grid or move the body.");
+      constexpr double far  = 1e300;
+      const auto       look = [&](const unsigned int, const Point<dim> &x, const double) {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
+        if (!is_inside)
+          throw EntryError(body.get_section_name(), body.shape->position_entry(),
+                                 "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
+                                   to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
+                                   ", upper faces excluded. Move the body, or enlarge the grid.");
+      };
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        Point<dim> lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = -far;
+          upper[d] = far;
+        }
+        (face % 2 == 0 ? upper : lower)[face / 2] = (face % 2 == 0 ? grid.lower : grid.upper)[face / 2];
+        body.shape->visit(BoundingBox<dim>({lower, upper}), look);
+      }
     }
   } // namespace
 
@@ -102,7 +102,7 @@ namespace Talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      check_body(grid, body);
+      check_inside(grid, body);
       body.first_id = next_id;
       next_id += body.shape->n_indices();
       AssertThrow(
@@ -113,22 +113,26 @@ namespace Talus
       body_names.push_back(body.name);
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
-          visit_cell(grid, body, cell,
-                     [&](const unsigned int i, const Point<dim> &x, const double volume)
-                     {
-                       const Point<dim> location = inside_cell(grid.lattice, &x[0]);
-                       body.initialize(x, volume, *materials[body.material], *this, properties);
-                       home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location),
-                                             body.first_id + i, cell, make_array_view(properties));
-                       largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
-                       ++n_created[b];
-                     });
+          visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {
+            const Point<dim> location = inside_cell(grid.lattice, &x[0]);
+            body.initialize(x, volume, *materials[body.material], *this, properties);
+            home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,
+                                  cell, make_array_view(properties));
+            largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
+            ++n_created[b];
+          });
     }
     home->update_cached_numbers();
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
     for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      if (n_created[b] == 0)
+        throw EntryError(
+          bodies[b]->get_section_name(), bodies[b]->shape->position_entry(),
+          "the body is empty: no particle lies in it. Check its corners, its lattice offset or its particles per cell.");
       n_global += n_created[b];
+    }
     // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
     grid.mass_floor = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
     load();
@@ -137,9 +141,11 @@ namespace Talus
   template <int dim>
   void Particles<dim>::set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift)
   {
+    // deal.II loses a particle beyond this rank's ghost cells, so one must be noticed well before: linear functions
+    // (n = 2), which could do with the ghost cell alone, keep the distance of the quadratic ones.
     this->grid    = &grid;
-    coverage      = grid.lattice.coverage(n);
-    stencil_shift = shift;
+    coverage      = grid.lattice.coverage(std::max(n, 3u));
+    stencil_shift = n < 3 ? 0.5 : shift;
   }
 
   template <int dim>

@@ -54,6 +54,7 @@ namespace Talus
       }
 
       unsigned int n_indices() const override { return points.size(); }
+      std::string  position_entry() const override { return "File"; }
 
     private:
       void read(const std::string &line, const std::string &where)
@@ -72,13 +73,13 @@ namespace Talus
           {
           }
           AssertThrow(end == word.size() && std::isfinite(numbers.back()),
-                      InputError(where + ": '" + word + "' is not a finite number."));
+                      InputError(where + ": '" + word + "' is not a finite number. Correct the line."));
         }
         AssertThrow(numbers.size() == dim + 1,
                     InputError(where + ": expected " + std::to_string(dim + 1) + " numbers (" +
                                (dim == 2 ? "x y volume" : "x y z volume") + "), found " +
                                std::to_string(numbers.size()) + ". Complete or remove the line."));
-        AssertThrow(numbers.back() > 0, InputError(where + ": the volume must be positive."));
+        AssertThrow(numbers.back() > 0, InputError(where + ": the volume must be positive. Correct the last number."));
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = numbers[d];

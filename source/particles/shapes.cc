@@ -40,7 +40,8 @@ namespace Talus
                              "the body is empty: this corner must lie above the lower corner in every direction.");
         return BoundingBox<dim>({to_point<dim>(lower), to_point<dim>(upper)});
       }
-      bool contains(const Point<dim> &) const override { return true; }
+      bool        contains(const Point<dim> &) const override { return true; }
+      std::string position_entry() const override { return "Lower corner"; }
 
     private:
       std::vector<double> lower = std::vector<double>(dim, 0.), upper = std::vector<double>(dim, 1.);
@@ -66,7 +67,8 @@ namespace Talus
           diagonal[d] = radius;
         return BoundingBox<dim>({to_point<dim>(centre) - diagonal, to_point<dim>(centre) + diagonal});
       }
-      bool contains(const Point<dim> &x) const override { return x.distance(to_point<dim>(centre)) < radius; }
+      bool        contains(const Point<dim> &x) const override { return x.distance(to_point<dim>(centre)) < radius; }
+      std::string position_entry() const override { return "Centre"; }
 
     private:
       std::vector<double> centre = std::vector<double>(dim, 0.);
@@ -108,6 +110,7 @@ namespace Talus
         r[along()]       = 0;
         return r.norm() < radius;
       }
+      std::string position_entry() const override { return "Centre"; }
 
     private:
       unsigned int along() const { return axis[0] - 'x'; }

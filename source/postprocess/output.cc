@@ -36,6 +36,7 @@ namespace Talus
     add_parameter("Overwrite", overwrite, "Replace the files of an old run in that directory.");
     add_parameter("Time interval", time_interval, "Time between two outputs [time]; 0: off.", prm, Patterns::Double(0));
     add_parameter("Step interval", step_interval, "Steps between two outputs [1]; 0: off.", prm, Patterns::Integer(0));
+    add_parameter("Final state", with_final_state, "Write the state at the end of the run, whatever the intervals.");
     add_parameter("Statistics interval", statistics_interval,
                   "Steps between two rows of statistics.csv and probes.csv [1].", prm, Patterns::Integer(1));
     add_parameter("Particle fields", field_names,
@@ -131,8 +132,7 @@ namespace Talus
       throw failure;
     }
     run_on_root(
-      [&]
-      {
+      [&] {
         AssertThrow(is_complete_vtu(temporary), failure);
         rename_file(temporary, final_name);
         write_series(name);

@@ -16,8 +16,7 @@ namespace Talus
     this->columns = columns;
     is_root       = Utilities::MPI::this_mpi_process(communicator) == 0;
     run_on_root(
-      [&]
-      {
+      [&] {
         std::string header;
         for (const auto &column : columns)
           header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");

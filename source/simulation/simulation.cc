@@ -1,6 +1,10 @@
 #include <talus/simulation/simulation.h>
 
+#include <talus/core/command_line.h>
+#include <talus/postprocess/energies.h>
+
 #include <iomanip>
+#include <iostream>
 
 namespace Talus
 {
@@ -9,11 +13,11 @@ namespace Talus
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, MPI_Comm communicator) :
     ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters),
-    timer(std::cout, TimerOutput::never, TimerOutput::wall_times), grid("/Grid", communicator),
+    timer(timing_table, TimerOutput::never, TimerOutput::wall_times), grid("/Grid", communicator),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
-    model{grid, particles, *kernel, *transfer, boundary, materials, acceleration},
+    model{grid, particles, *kernel, *transfer, boundary, materials, acceleration}, probes(parameters),
     acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->attach(grid.lattice,
@@ -40,6 +44,12 @@ namespace Talus
       boundary.conditions.push_back(
         parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", "Kind of condition."));
     transfer->add_fields(particles);
+    if (parameters.choose_from("/FEM reference", "Compare", "no", "no|yes",
+                               "Compare the stress with a linear elastic finite element solution.") == "yes")
+    {
+      comparison = std::make_unique<Comparison<dim>>(parameters, "/FEM reference", material_names, communicator);
+      comparison->add_fields(particles);
+    }
 
     add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
     add_parameter("Courant number", courant_number, "Step size over its critical value, Eq. (37) [1].", prm,
@@ -67,8 +77,14 @@ namespace Talus
   void Simulation<dim>::run()
   {
     set_up();
+    open_output();
+    postprocess();
     while (!is_finished())
+    {
       advance();
+      postprocess();
+    }
+    finish();
   }
 
   template <int dim>
@@ -84,6 +100,120 @@ namespace Talus
     for (auto &condition : boundary.conditions)
       condition->attach(grid);
     now = survey(model, time, dt);
+    energy.start(now, totals(particles, *transfer, materials, communicator).strain_energy);
+  }
+
+  template <int dim>
+  void Simulation<dim>::open_output()
+  {
+    output.check(particles);
+    output.open(communicator);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      log.open(output.directory() + "/log.txt");
+      std::ofstream used(output.directory() + "/parameters.prm");
+      parameters.print(used, /* with_help = */ false);
+      AssertThrow(log && used.flush(), RunError("Cannot write into the directory '" + output.directory() + "'."));
+    }
+    probes.open(output.directory(), particles, grid);
+
+    std::vector<Column> columns = {{"time", "time"}, {"step", "1"}, {"step size", "time"}};
+    for (const auto &column : Totals<dim>::columns())
+      columns.push_back(column);
+    columns.push_back({"body force work", "energy"});
+    columns.push_back({"condition work", "energy"});
+    for (unsigned int d = 0; d < dim; ++d)
+      columns.push_back({std::string("lost momentum ") + "xyz"[d], "mass length/time"});
+    for (const auto &name : boundary.names)
+      for (unsigned int d = 0; d < dim; ++d)
+        columns.push_back({"reaction " + name + " " + "xyz"[d], "force"});
+    statistics.open(output.directory() + "/statistics.csv", columns, communicator);
+
+    say(summary());
+    progress = std::make_unique<Progress>(communicator, end_time, particles.n_global);
+  }
+
+  template <int dim>
+  void Simulation<dim>::postprocess()
+  {
+    TimerOutput::Scope scope(timer, "output");
+    if (comparison && step > 0)
+      comparison->accumulate(time, dt, end_time, now.reactions, particles);
+    if (output.is_statistics_due(step) || is_finished())
+    {
+      write_statistics();
+      probes.write(time, particles);
+    }
+    if (output.is_due(time, step) && !is_finished())
+      output.write(time, step, particles, grid);
+    progress->update(time, step);
+  }
+
+  template <int dim>
+  void Simulation<dim>::write_statistics()
+  {
+    std::vector<double> row    = {time, static_cast<double>(step), dt};
+    const auto          totals = Talus::totals(particles, *transfer, materials, communicator).values();
+    row.insert(row.end(), totals.begin(), totals.end());
+    row.push_back(energy.body_force_work);
+    row.push_back(energy.condition_work);
+    for (unsigned int d = 0; d < dim; ++d)
+      row.push_back(lost_momentum[d]);
+    for (const auto &reaction : now.reactions)
+      row.insert(row.end(), reaction.begin_raw(), reaction.end_raw());
+    statistics.write_row(row);
+  }
+
+  template <int dim>
+  void Simulation<dim>::finish()
+  {
+    progress->finish(time, step);
+    if (comparison)
+    {
+      TimerOutput::Scope scope(timer, "finite element reference");
+      comparison->finish(end_time, materials, boundary.names, particles);
+      std::ostringstream table;
+      comparison->write(output.directory() + "/comparison.csv", table);
+      say(table.str());
+    }
+    if (output.is_due_at_end(step))
+    {
+      TimerOutput::Scope scope(timer, "output");
+      output.write(time, step, particles, grid);
+    }
+    timer.print_summary();
+    say(timing_table.str());
+  }
+
+  template <int dim>
+  void Simulation<dim>::say(const std::string &text)
+  {
+    if (Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    std::cout << text << std::flush;
+    log << text << std::flush;
+  }
+
+  template <int dim>
+  std::string Simulation<dim>::summary() const
+  {
+    const auto chosen = [](const std::string &section, const std::string &entry) {
+      prm.enter_subsection(section);
+      const std::string value = prm.get(entry);
+      prm.leave_subsection();
+      return value;
+    };
+    std::ostringstream text;
+    text << "Talus " << version() << ", " << Utilities::MPI::n_mpi_processes(communicator) << " rank(s)\n  grid       ";
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d == 0 ? "" : " x ") << grid.lattice.n_cells[d];
+    text << " cells, " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
+         << bodies.size()
+         << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
+         << "  kernel     " << chosen("Kernel", "Type") << ", boundary treatment "
+         << chosen("Kernel", "Boundary treatment") << "\n  transfer   " << chosen("Transfer", "Type")
+         << "\n  output     " << output.directory() << '\n';
+    return text.str();
   }
 
   template <int dim>
@@ -112,9 +242,10 @@ namespace Talus
 
     TimerOutput::Scope scope(timer, "survey");
     now = survey(model, time, dt);
+    lost_momentum += now.lost_momentum;
     if (now.has_failed)
       report_failure(model, step, time, dt);
-    energy.check(now, step, time, dt);
+    energy.check(model, now, step, time, dt);
   }
 
   template class Simulation<2>;

@@ -20,6 +20,16 @@ namespace Talus
       return value;
     }
 
+    /** The particle's position as "(x, y)". */
+    template <int dim>
+    std::string place(const WorkingSet<dim> &particles, const unsigned int p)
+    {
+      Tensor<1, dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = particles.component(particles.position, d)[p];
+      return to_text(x);
+    }
+
     /** A number that is finite only if velocity and stress of the particle are. */
     template <int dim>
     double magnitude(const WorkingSet<dim> &particles, const unsigned int p)
@@ -130,10 +140,7 @@ namespace Talus
         continue;
       if (particles.id[p] >= first.first)
         continue;
-      what << ", at (";
-      for (unsigned int d = 0; d < dim; ++d)
-        what << (d == 0 ? "" : ", ") << particles.component(particles.position, d)[p];
-      what << ") in step " << step << ", t = " << time << ", dt = " << dt << ". "
+      what << ", at " << place(particles, p) << " in step " << step << ", t = " << time << ", dt = " << dt << ". "
            << (is_outside ? "Enlarge the grid, or lower the Courant number." :
                             "Lower the Courant number, or correct the kernels near the boundary.");
       first = {particles.id[p], what.str()};
@@ -142,6 +149,31 @@ namespace Talus
       first = std::min(first, other);
     throw RunError("Particle " + std::to_string(first.first) + " " + first.second);
   }
+
+  namespace
+  {
+    /** The fastest of all particles, its speed and place. Collective. */
+    template <int dim>
+    std::string describe_fastest(const Model<dim> &model)
+    {
+      const Particles<dim>          &particles = model.particles;
+      std::pair<double, std::string> fastest(-1., "");
+      for (unsigned int p = 0; p < particles.size(); ++p)
+      {
+        double squares = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          squares += std::pow(particles.component(particles.velocity, d)[p], 2);
+        if (squares <= fastest.first)
+          continue;
+        std::ostringstream text;
+        text << "particle " << particles.id[p] << " at " << place(particles, p) << " with speed " << std::sqrt(squares);
+        fastest = {squares, text.str()};
+      }
+      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, fastest))
+        fastest = std::max(fastest, other);
+      return fastest.second;
+    }
+  } // namespace
 
   template <int dim>
   void EnergyWatch<dim>::start(const Survey<dim> &first, const double strain_energy)
@@ -152,7 +184,8 @@ namespace Talus
   }
 
   template <int dim>
-  void EnergyWatch<dim>::check(const Survey<dim> &survey, const unsigned int step, const double time, const double dt)
+  void EnergyWatch<dim>::check(const Model<dim> &model, const Survey<dim> &survey, const unsigned int step,
+                               const double time, const double dt)
   {
     body_force_work += dt * survey.body_force_power;
     for (const double work : survey.works)
@@ -163,8 +196,8 @@ namespace Talus
       std::ostringstream message;
       message << "The kinetic energy " << survey.kinetic_energy << " in step " << step << ", t = " << time
               << ", dt = " << dt << " is more than twice the " << available
-              << " that initial state, body force and conditions can account for: the run is unstable. "
-                 "Lower the Courant number, or correct the kernels near the boundary.";
+              << " that initial state, body force and conditions account for: the run is unstable. Fastest is "
+              << describe_fastest(model) << ". Lower the Courant number, or correct the kernels near the boundary.";
       throw RunError(message.str());
     }
   }

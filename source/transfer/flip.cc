@@ -9,8 +9,6 @@ namespace Talus
     template <int dim>
     struct Flip : SchemeDefaults<dim>
     {
-      static constexpr bool gathers_increment = true;
-
       void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
       {
         this->set_velocity(particles, p, this->velocity(particles, p) + sum.increment);
@@ -31,8 +29,6 @@ namespace Talus
     template <int dim>
     struct Blend : SchemeDefaults<dim>
     {
-      static constexpr bool gathers_increment = true;
-
       void add_parameters(dealii::ParameterAcceptor &object)
       {
         object.add_parameter("FLIP fraction", flip_fraction, "xi of Eq. (24): 1 is FLIP, 0 is PIC [1].", object.prm,

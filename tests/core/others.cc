@@ -26,14 +26,11 @@ namespace
     f.initialize("exp(t); max(1, 2)" + std::string(dim == 3 ? "; 0" : ""), "/Run", "Body force");
     check_true("x in exp and max is no variable", !f.depends_on_space() && !f.is_zero());
 
-    const auto error = [](const std::string &name, const std::string &text, const std::string &message)
-    {
-      check_error<EntryError>(name, {"/Run: Body force: ", message},
-                              [&]
-                              {
-                                ParsedVector<dim> g;
-                                g.initialize(text, "/Run", "Body force");
-                              });
+    const auto error = [](const std::string &name, const std::string &text, const std::string &message) {
+      check_error<EntryError>(name, {"/Run: Body force: ", message}, [&] {
+        ParsedVector<dim> g;
+        g.initialize(text, "/Run", "Body force");
+      });
     };
     error("too few", "1", "expected " + std::to_string(dim) + " expressions separated by ';', found 1");
     error("too many", "1; 2; 3; 4", "found 4");

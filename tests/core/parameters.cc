@@ -117,8 +117,7 @@ void unknown_entries()
 void overrides()
 {
   const File file("overrides", spring("set Turns = 3\nset Stiffness = 2\n"));
-  const auto parse = [&](const std::vector<std::string> &overrides)
-  {
+  const auto parse = [&](const std::vector<std::string> &overrides) {
     Parameters parameters(file.name, overrides);
     Spring     spring("/Springs/first");
     parameters.parse();
@@ -128,8 +127,9 @@ void overrides()
   check_true("override wins", parse({"Springs/first/Turns = 7"}) == std::make_pair(7, 2.));
   check_true("last override wins",
              parse({"Springs/first/Turns = 7", "/Springs/first/Turns=8"}) == std::make_pair(8, 2.));
-  const auto error = [&](const std::string &name, const std::string &text, const std::vector<std::string> &parts)
-  { check_error<InputError>(name, parts, [&] { parse({text}); }); };
+  const auto error = [&](const std::string &name, const std::string &text, const std::vector<std::string> &parts) {
+    check_error<InputError>(name, parts, [&] { parse({text}); });
+  };
   error("no equal sign", "Springs/first/Turns 7", {"--set", "Springs/first/Turns 7", "Section/Entry = value"});
   error("unknown entry", "Springs/first/Turn = 7", {"--set", "unknown entry 'Turn'", "Did you mean 'Turns'?"});
   error("bad value", "Springs/first/Turns = x", {"--set", "'x' is not a valid value"});
@@ -211,8 +211,9 @@ void printing()
 
 void names()
 {
-  const auto list = [](const std::string &value)
-  { return Parameters::from_text("subsection Bodies\nset Names = " + value + "\nend\n").names("/Bodies", ""); };
+  const auto list = [](const std::string &value) {
+    return Parameters::from_text("subsection Bodies\nset Names = " + value + "\nend\n").names("/Bodies", "");
+  };
   check_true("two names", list("left, right") == std::vector<std::string>{"left", "right"});
   check_true("none", list("").empty());
   check_error<InputError>("twice", {"text:2: ", "'left' stands there twice"}, [&] { list("left, left"); });

@@ -225,7 +225,7 @@ void velocity_update()
     {
       const double *node = s.grid.fields[i];
       raise(error, node[Fields::velocity + d] - (i % 3 == 0 ? (0.3 + d) / 2 + 0.1 * (5. - d) / 2 : 0.));
-      raise(error, node[Fields::old_velocity + d] - (i % 3 == 0 ? (0.3 + d) / 2 : 0.));
+      raise(error, node[Fields::increment + d] - (i % 3 == 0 ? 0.1 * (5. - d) / 2 : 0.));
     }
   }
   check("velocities", error, 1e-15);

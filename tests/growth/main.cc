@@ -12,8 +12,9 @@ namespace
   /** Divides a field by a number. */
   void shrink(Setup<2> &setup, const unsigned int field, const double divisor)
   {
-    setup.fill(field, [&](const unsigned int p, const unsigned int c)
-               { return setup.particles.component(field, c)[p] / divisor; });
+    setup.fill(field, [&](const unsigned int p, const unsigned int c) {
+      return setup.particles.component(field, c)[p] / divisor;
+    });
   }
 
   /** sum |u|^2 over all particles. */
@@ -39,8 +40,9 @@ namespace
     setup.randomize(moment, 2);
     shrink(setup, moment, scale);
 
-    const auto norm = [&]
-    { return std::sqrt(square(setup, particles.velocity) + scale * scale * square(setup, moment)); };
+    const auto norm = [&] {
+      return std::sqrt(square(setup, particles.velocity) + scale * scale * square(setup, moment));
+    };
     double mean = 0;
     for (unsigned int n = 0; n < 3000; ++n)
     {
@@ -85,8 +87,9 @@ namespace
     for (const std::string transfer : {"APIC", "TPIC"})
     {
       const bool is_apic = transfer == "APIC";
-      const auto factor  = [&](const std::string &walls)
-      { return growth("quadratic B-spline", "Steffen", transfer, walls, false); };
+      const auto factor  = [&](const std::string &walls) {
+        return growth("quadratic B-spline", "Steffen", transfer, walls, false);
+      };
       check_range(transfer + ", free", factor("free"), is_apic ? 1.38 : 1.06, is_apic ? 1.44 : 1.10);
       check_range(transfer + ", slip", factor("slip"), is_apic ? 1.29 : 1.04, is_apic ? 1.34 : 1.08);
       check_range(transfer + ", no-slip", factor("no-slip"), 0.9, 1.);

@@ -66,19 +66,17 @@ namespace Test
       unsigned int              n       = 1;
       for (unsigned int d = 0; d < dim; ++d)
         n *= special.size();
-      for_cells(
-        [&](const auto &cell)
+      for_cells([&](const auto &cell) {
+        std::array<double, dim> local;
+        for (unsigned int i = 0; i < n; ++i)
         {
-          std::array<double, dim> local;
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= special.size())
-              local[d] = special[rest % special.size()];
-            const auto x = in_cell(cell, local);
-            if (is_local(x))
-              visitor(x);
-          }
-        });
+          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= special.size())
+            local[d] = special[rest % special.size()];
+          const auto x = in_cell(cell, local);
+          if (is_local(x))
+            visitor(x);
+        }
+      });
       for_generic_points(20, visitor);
     }
 
@@ -86,17 +84,15 @@ namespace Test
     template <class Visitor>
     void for_generic_points(const unsigned int n, const Visitor &visitor)
     {
-      for_cells(
-        [&](const auto &cell)
+      for_cells([&](const auto &cell) {
+        std::array<double, dim> local;
+        for (unsigned int i = 0; i < n; ++i)
         {
-          std::array<double, dim> local;
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            for (double &l : local)
-              l = (static_cast<int>(4 * uniform(random)) + 0.05 + 0.9 * uniform(random)) / 4;
-            visitor(in_cell(cell, local));
-          }
-        });
+          for (double &l : local)
+            l = (static_cast<int>(4 * uniform(random)) + 0.05 + 0.9 * uniform(random)) / 4;
+          visitor(in_cell(cell, local));
+        }
+      });
     }
 
     /** True where some node of the kernel's support lies beyond the domain. */

@@ -46,12 +46,10 @@ namespace
     KernelSetup<dim> setup(kernel, treatment);
     Defects          defects;
     const double     support = Reference::Function(kernel).support;
-    setup.for_points(
-      [&](const auto &x)
-      {
-        if (!only_interior || !setup.is_near_boundary(x, support))
-          defects.add(setup, x, setup.at(x));
-      });
+    setup.for_points([&](const auto &x) {
+      if (!only_interior || !setup.is_near_boundary(x, support))
+        defects.add(setup, x, setup.at(x));
+    });
     return defects;
   }
 } // namespace

@@ -31,23 +31,20 @@ namespace
     KernelSetup<dim> setup(kernel, treatment);
     const double     support = Reference::Function(kernel).support;
     double           error   = 0;
-    setup.for_generic_points(10,
-                             [&](const auto &x)
-                             {
-                               if (setup.is_near_boundary(x, support) != is_near)
-                                 return;
-                               const auto nodes = by_node(setup.at(x));
-                               for (unsigned int d = 0; d < dim; ++d)
-                               {
-                                 const double           step = 1e-5 * setup.grid.lattice.h[d];
-                                 dealii::Tensor<1, dim> shift;
-                                 shift[d]   = step;
-                                 auto above = by_node(setup.at(x + shift)), below = by_node(setup.at(x - shift));
-                                 for (const auto &[node, values] : nodes)
-                                   raise(error, setup.grid.lattice.h[d] *
-                                                  (values[d + 1] - (above[node][0] - below[node][0]) / (2 * step)));
-                               }
-                             });
+    setup.for_generic_points(10, [&](const auto &x) {
+      if (setup.is_near_boundary(x, support) != is_near)
+        return;
+      const auto nodes = by_node(setup.at(x));
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double           step = 1e-5 * setup.grid.lattice.h[d];
+        dealii::Tensor<1, dim> shift;
+        shift[d]   = step;
+        auto above = by_node(setup.at(x + shift)), below = by_node(setup.at(x - shift));
+        for (const auto &[node, values] : nodes)
+          raise(error, setup.grid.lattice.h[d] * (values[d + 1] - (above[node][0] - below[node][0]) / (2 * step)));
+      }
+    });
     return error;
   }
 
@@ -58,35 +55,32 @@ namespace
     KernelSetup<dim>          setup(kernel, treatment);
     const double              support = Reference::Function(kernel).support, step = 1e-9;
     std::pair<double, double> greatest(0, 0);
-    setup.for_generic_points(5,
-                             [&](dealii::Point<dim> x)
-                             {
-                               if (only_interior && setup.is_near_boundary(x, support + 0.5))
-                                 return;
-                               for (unsigned int d = 0; d < dim; ++d)
-                               {
-                                 const double h    = setup.grid.lattice.h[d];
-                                 const double c    = setup.grid.lattice.coordinate(x[d], d);
-                                 const double knot = setup.grid.lattice.origin[d] + h * std::round(4 * c) / 4;
-                                 const auto   cell = std::floor(c);
-                                 // Stay in the cell of x, of which this rank knows all nodes; faces are tested below.
-                                 if (std::round(4 * c) / 4 == cell || std::round(4 * c) / 4 == cell + 1)
-                                   continue;
-                                 dealii::Point<dim> a = x, b = x;
-                                 a[d]        = knot - step * h;
-                                 b[d]        = knot + step * h;
-                                 auto before = by_node(setup.at(a)), after = by_node(setup.at(b));
-                                 for (const auto &node : after)
-                                   before[node.first];
-                                 for (const auto &[node, values] : before)
-                                 {
-                                   raise(greatest.first, values[0] - after[node][0]);
-                                   for (unsigned int e = 0; e < dim; ++e)
-                                     raise(greatest.second,
-                                           setup.grid.lattice.h[e] * (values[e + 1] - after[node][e + 1]));
-                                 }
-                               }
-                             });
+    setup.for_generic_points(5, [&](dealii::Point<dim> x) {
+      if (only_interior && setup.is_near_boundary(x, support + 0.5))
+        return;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double h    = setup.grid.lattice.h[d];
+        const double c    = setup.grid.lattice.coordinate(x[d], d);
+        const double knot = setup.grid.lattice.origin[d] + h * std::round(4 * c) / 4;
+        const auto   cell = std::floor(c);
+        // Stay in the cell of x, of which this rank knows all nodes; faces are tested below.
+        if (std::round(4 * c) / 4 == cell || std::round(4 * c) / 4 == cell + 1)
+          continue;
+        dealii::Point<dim> a = x, b = x;
+        a[d]        = knot - step * h;
+        b[d]        = knot + step * h;
+        auto before = by_node(setup.at(a)), after = by_node(setup.at(b));
+        for (const auto &node : after)
+          before[node.first];
+        for (const auto &[node, values] : before)
+        {
+          raise(greatest.first, values[0] - after[node][0]);
+          for (unsigned int e = 0; e < dim; ++e)
+            raise(greatest.second, setup.grid.lattice.h[e] * (values[e + 1] - after[node][e + 1]));
+        }
+      }
+    });
     return greatest;
   }
 
@@ -96,25 +90,23 @@ namespace
   {
     KernelSetup<dim> setup(kernel, treatment);
     double           greatest = 0;
-    setup.for_cells(
-      [&](const auto &cell)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          if (!cell->at_boundary(2 * d + 1) && cell->neighbor(2 * d + 1)->is_locally_owned())
-          {
-            std::array<double, dim> low, high;
-            for (unsigned int e = 0; e < dim; ++e)
-              low[e] = high[e] = 0.1 + 0.31 * e;
-            low[d]      = 1 - 1e-9;
-            high[d]     = 1e-9;
-            auto before = by_node(setup.at(setup.in_cell(cell, low)));
-            auto after  = by_node(setup.at(setup.in_cell(cell->neighbor(2 * d + 1), high)));
-            for (const auto &node : after)
-              before[node.first];
-            for (const auto &[node, values] : before)
-              raise(greatest, values[0] - after[node][0]);
-          }
-      });
+    setup.for_cells([&](const auto &cell) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!cell->at_boundary(2 * d + 1) && cell->neighbor(2 * d + 1)->is_locally_owned())
+        {
+          std::array<double, dim> low, high;
+          for (unsigned int e = 0; e < dim; ++e)
+            low[e] = high[e] = 0.1 + 0.31 * e;
+          low[d]      = 1 - 1e-9;
+          high[d]     = 1e-9;
+          auto before = by_node(setup.at(setup.in_cell(cell, low)));
+          auto after  = by_node(setup.at(setup.in_cell(cell->neighbor(2 * d + 1), high)));
+          for (const auto &node : after)
+            before[node.first];
+          for (const auto &[node, values] : before)
+            raise(greatest, values[0] - after[node][0]);
+        }
+    });
     return greatest;
   }
 } // namespace

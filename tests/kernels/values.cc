@@ -142,8 +142,7 @@ namespace
     const auto               &lattice = setup.grid.lattice;
     const Reference::Function function(kernel);
     double                    weight_error = 0, gradient_error = 0;
-    const auto                visit = [&](const dealii::Point<dim> &x)
-    {
+    const auto                visit = [&](const dealii::Point<dim> &x) {
       auto       nodes   = reference<dim>(lattice, x, function, treatment);
       const auto stencil = setup.at(x);
       for (unsigned int k = 0; k < stencil.size; ++k)
@@ -158,20 +157,18 @@ namespace
         raise(weight_error, node.second.weight);
     };
     setup.for_generic_points(5, visit);
-    setup.for_cells(
-      [&](const auto &cell)
-      {
-        // Corners, edges and faces themselves; hats everywhere are 0/0 there.
-        if (cell->at_boundary() && (kernel != "linear" || treatment != "WLS everywhere"))
-          for (const unsigned int v : cell->vertex_indices())
-          {
-            std::array<double, dim> local;
-            for (unsigned int d = 0; d < dim; ++d)
-              local[d] = cell->at_boundary(2 * d + (v >> d) % 2) ? (v >> d) % 2 : 0.3;
-            if (const auto x = setup.in_cell(cell, local); setup.is_local(x))
-              visit(x);
-          }
-      });
+    setup.for_cells([&](const auto &cell) {
+      // Corners, edges and faces themselves; hats everywhere are 0/0 there.
+      if (cell->at_boundary() && (kernel != "linear" || treatment != "WLS everywhere"))
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          std::array<double, dim> local;
+          for (unsigned int d = 0; d < dim; ++d)
+            local[d] = cell->at_boundary(2 * d + (v >> d) % 2) ? (v >> d) % 2 : 0.3;
+          if (const auto x = setup.in_cell(cell, local); setup.is_local(x))
+            visit(x);
+        }
+    });
     check(kernel + ", " + treatment + ": weights", weight_error, 1e-12);
     check(kernel + ", " + treatment + ": gradients", gradient_error, 1e-12);
   }
@@ -250,25 +247,22 @@ void closed_form()
  */
 void negative_weights()
 {
-  const auto smallest = [](const std::string &kernel, const std::string &treatment)
-  {
+  const auto smallest = [](const std::string &kernel, const std::string &treatment) {
     KernelSetup<2> setup(kernel, treatment);
     double         least = 0;
-    setup.for_cells(
-      [&](const auto &cell)
-      {
-        if (cell->at_boundary())
-          for (unsigned int i = 0; i <= 100; ++i)
-            for (unsigned int j = 0; j <= 100; ++j)
-            {
-              const auto x = setup.in_cell(cell, {{0.01 * i, 0.01 * j}});
-              if (!setup.is_local(x))
-                continue;
-              const auto stencil = setup.at(x);
-              for (unsigned int k = 0; k < stencil.size; ++k)
-                least = std::min(least, stencil.weight[k]);
-            }
-      });
+    setup.for_cells([&](const auto &cell) {
+      if (cell->at_boundary())
+        for (unsigned int i = 0; i <= 100; ++i)
+          for (unsigned int j = 0; j <= 100; ++j)
+          {
+            const auto x = setup.in_cell(cell, {{0.01 * i, 0.01 * j}});
+            if (!setup.is_local(x))
+              continue;
+            const auto stencil = setup.at(x);
+            for (unsigned int k = 0; k < stencil.size; ++k)
+              least = std::min(least, stencil.weight[k]);
+          }
+    });
     return -max(-least);
   };
   check("quadratic, WLS", smallest("quadratic B-spline", "WLS") + 1. / 49, 1e-13);

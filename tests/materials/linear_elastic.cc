@@ -217,9 +217,8 @@ void plane_strain()
 
 void parameter_errors()
 {
-  const auto error =
-    [](const std::string &name, const std::string &entry, const std::string &value, const std::string &remedy)
-  {
+  const auto error = [](const std::string &name, const std::string &entry, const std::string &value,
+                        const std::string &remedy) {
     check_error<EntryError>(name, {"/Materials/m", entry, remedy},
                             [&] { MaterialPoint("linear elastic", set(entry, value), 3); });
   };

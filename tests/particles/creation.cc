@@ -91,8 +91,7 @@ template <int dim>
 void round_bodies()
 {
   const std::string centre = set("Centre", coordinates<dim>({{0.5, 0.5, 0.5}})) + set("Radius", "0.4");
-  const auto        count  = [](const auto &is_inside)
-  {
+  const auto        count  = [](const auto &is_inside) {
     unsigned int       n      = 0;
     const unsigned int n_axis = 26; // 0.8 * 4 / 0.125 = 25.6 points, rounded to fill the length
     for (unsigned int i = 0; i < (dim == 2 ? n_axis * n_axis : n_axis * n_axis * n_axis); ++i)
@@ -117,8 +116,7 @@ void round_bodies()
     base[axis]                 = 0.1;
     Setup<dim> setup(text(set("Shape", "cylinder") + set("Centre", coordinates<dim>(base)) + set("Radius", "0.4") +
                           set("Height", "0.8") + set("Axis", std::string(1, "xyz"[axis])) + dense));
-    const auto is_inside = [axis](Tensor<1, dim> r)
-    {
+    const auto is_inside = [axis](Tensor<1, dim> r) {
       r[axis] = 0;
       return r.norm() < 0.4;
     };
@@ -148,8 +146,7 @@ void point_file()
   }
   check("positions", error, 0.);
 
-  const auto error_in = [&](const std::string &what, const std::string &content, const std::string &message)
-  {
+  const auto error_in = [&](const std::string &what, const std::string &content, const std::string &message) {
     write(content);
     check_error<InputError>(what, {message}, [&] { Setup<dim> s(text(body)); });
   };

@@ -89,13 +89,11 @@ void synchronise()
   for (unsigned int round = 0; round < 4; ++round)
   {
     // Up to 0.9 of a cell in each direction, but not out of the grid; there and back and elsewhere.
-    setup.fill(set.position,
-               [&](const unsigned int p, const unsigned int d)
-               {
-                 const double x     = set.component(set.position, d)[p];
-                 const double moved = x + 0.9 * setup.grid.lattice.h[d] * hashed_jitter(round, set.id[p], d);
-                 return moved > 0 && moved < 1 ? moved : x;
-               });
+    setup.fill(set.position, [&](const unsigned int p, const unsigned int d) {
+      const double x     = set.component(set.position, d)[p];
+      const double moved = x + 0.9 * setup.grid.lattice.h[d] * hashed_jitter(round, set.id[p], d);
+      return moved > 0 && moved < 1 ? moved : x;
+    });
     for (unsigned int p = 0; p < set.size(); ++p)
     {
       const auto cell = cell_of(setup, p);

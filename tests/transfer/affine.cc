@@ -23,8 +23,9 @@ namespace
   void set_affine(Setup<dim> &setup)
   {
     const auto L = some_gradient<dim>();
-    setup.fill(setup.particles.velocity, [&](const unsigned int p, const unsigned int c)
-               { return (offset_velocity<dim>() + L * setup.position(p))[c]; });
+    setup.fill(setup.particles.velocity, [&](const unsigned int p, const unsigned int c) {
+      return (offset_velocity<dim>() + L * setup.position(p))[c];
+    });
     setup.fill(setup.particles.grad_v, [&](unsigned int, const unsigned int c) { return L[c / dim][c % dim]; });
     setup.transfer->initialize(*setup.kernel, setup.particles);
   }
@@ -78,15 +79,13 @@ void affine_at_walls()
         check(transfer + ", " + kernel + ", " + treatment + ": near walls", affine_error(setup), 1e-12);
 
         const auto &lattice = setup.grid.lattice;
-        setup.fill(setup.particles.position,
-                   [&](const unsigned int p, const unsigned int d)
-                   {
-                     const double x = setup.particles.component(setup.particles.position, d)[p];
-                     const double c = lattice.coordinate(x, d), gap = setup.particles.id[p] % 2 == 0 ? 0. : 1e-13;
-                     if (c < 0.5)
-                       return lattice.origin[d] + gap;
-                     return c > lattice.n_cells[d] - 0.5 ? setup.grid.upper[d] - 1e-15 - gap : x;
-                   });
+        setup.fill(setup.particles.position, [&](const unsigned int p, const unsigned int d) {
+          const double x = setup.particles.component(setup.particles.position, d)[p];
+          const double c = lattice.coordinate(x, d), gap = setup.particles.id[p] % 2 == 0 ? 0. : 1e-13;
+          if (c < 0.5)
+            return lattice.origin[d] + gap;
+          return c > lattice.n_cells[d] - 0.5 ? setup.grid.upper[d] - 1e-15 - gap : x;
+        });
         check(transfer + ", " + kernel + ", " + treatment + ": on walls", affine_error(setup), 1e-12);
       }
 }

@@ -59,8 +59,8 @@ namespace Test
       if (particles.fields[f].name == "affine moment")
       {
         // Any B that is of the order of v h, and not only what a velocity gradient gives.
-        setup.fill(f, [&](const unsigned int p, const unsigned int c)
-                   { return 0.1 * hashed_jitter(3, particles.id[p], c); });
+        setup.fill(
+          f, [&](const unsigned int p, const unsigned int c) { return 0.1 * hashed_jitter(3, particles.id[p], c); });
       }
   }
 

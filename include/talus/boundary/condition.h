@@ -34,10 +34,12 @@ namespace Talus
     void set(double *node, const unsigned int component, const double velocity)
     {
       using Fields         = NodalFields<dim>;
-      const double impulse = node[Fields::mass] * (node[Fields::velocity + component] - velocity);
+      const double change  = velocity - node[Fields::velocity + component];
+      const double impulse = -node[Fields::mass] * change;
       reaction[component] += impulse / dt;
       work -= impulse * velocity;
       node[Fields::velocity + component] = velocity;
+      node[Fields::increment + component] += change;
     }
 
     std::vector<unsigned int>              boundary_ids;

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/tensor.h>
 
-#include <ostream>
+#include <sstream>
 #include <string>
 
 namespace Talus
@@ -41,4 +42,14 @@ namespace Talus
 
     const std::string message;
   };
+
+  /** A point as messages write it: "(0.5, 1)". */
+  template <int dim>
+  std::string to_text(const dealii::Tensor<1, dim> &x)
+  {
+    std::ostringstream text;
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d == 0 ? "(" : ", ") << x[d];
+    return text.str() + ")";
+  }
 } // namespace Talus

@@ -3,6 +3,7 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,12 @@ namespace Talus
     bool                                         zero   = true;
     bool                                         varies = false;
   };
+
+  /**
+   * Calls `read`, which has deal.II read formulas, and returns in one line why
+   * muParser rejects one, or nothing. What deal.II writes to stderr then is dropped.
+   */
+  std::string formula_error(const std::function<void()> &read);
 
   /** True when `name` stands in `expression` as a whole word. */
   bool uses_variable(const std::string &expression, const std::string &name);

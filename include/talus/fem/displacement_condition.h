@@ -1,8 +1,8 @@
 #pragma once
 
+#include <talus/core/function.h>
 #include <talus/core/parameters.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
@@ -34,7 +34,7 @@ namespace Talus
     std::vector<unsigned int> components;
 
     /** @f$ \bar u @f$ [length]. */
-    dealii::FunctionParser<dim> displacement;
+    ParsedVector<dim> displacement;
 
   private:
     std::string component_names, formulas;

@@ -66,6 +66,9 @@ namespace Talus
      */
     dealii::Tensor<1, dim> force(const std::string &condition) const;
 
+    /** Whether a condition of this name exists. */
+    bool has_condition(const std::string &condition) const;
+
   private:
     using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 

@@ -55,7 +55,11 @@ namespace Talus
     NodalFields<dim>                                  fields;
     std::vector<typename Lattice<dim>::Index>         node_index; // lattice index of each local node
 
-    /** Nodes of at most this mass [mass] are empty; the momentum they held is counted as lost. */
+    /**
+     * Nodes of at most this mass [mass] are empty; what they held of momentum and
+     * impulse in the last step is counted as lost. The impulse counts most: towards
+     * the end of a B-spline's support its gradient is far larger than its value.
+     */
     double                 mass_floor = 0;
     dealii::Tensor<1, dim> lost_momentum;
 

@@ -13,7 +13,7 @@ namespace Talus
    * |-------------------|------------------------|------------------------|
    * | 0                 | m_i [mass]             | m_i                    |
    * | 1 .. dim          | momentum m_i v_i^n     | velocity v_i^{n+1}     |
-   * | dim+1 .. 2 dim    | force f_i              | old velocity v_i^n     |
+   * | dim+1 .. 2 dim    | force f_i              | v_i^{n+1} - v_i^n      |
    *
    * Owned nodes come first, then the copies of nodes that other ranks own; one
    * message per neighbour exchanges everything.
@@ -22,12 +22,15 @@ namespace Talus
   class NodalFields
   {
   public:
-    static constexpr unsigned int stride       = 8;
-    static constexpr unsigned int mass         = 0;
-    static constexpr unsigned int momentum     = 1;
-    static constexpr unsigned int velocity     = 1;
-    static constexpr unsigned int force        = 1 + dim;
-    static constexpr unsigned int old_velocity = 1 + dim;
+    static constexpr unsigned int stride    = 8;
+    static constexpr unsigned int mass      = 0;
+    static constexpr unsigned int momentum  = 1;
+    static constexpr unsigned int velocity  = 1;
+    static constexpr unsigned int force     = 1 + dim;
+    static constexpr unsigned int increment = 1 + dim;
+
+    /** The numbers of a node as one vector: GCC's extension, which compiles for every processor. */
+    using Lanes = double __attribute__((vector_size(stride * sizeof(double)), may_alias));
 
     void reinit(const dealii::IndexSet &owned_nodes, const dealii::IndexSet &relevant_nodes, MPI_Comm communicator);
 
@@ -47,6 +50,9 @@ namespace Talus
 
     double       *operator[](const unsigned int node) { return values.begin() + stride * node; }
     const double *operator[](const unsigned int node) const { return values.begin() + stride * node; }
+
+    Lanes       &lanes(const unsigned int node) { return *reinterpret_cast<Lanes *>((*this)[node]); }
+    const Lanes &lanes(const unsigned int node) const { return *reinterpret_cast<const Lanes *>((*this)[node]); }
 
   private:
     dealii::LinearAlgebra::distributed::Vector<double> values;

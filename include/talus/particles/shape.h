@@ -31,6 +31,9 @@ namespace Talus
     /** Visits all points in `box`; points close to it may be visited too. */
     virtual void visit(const dealii::BoundingBox<dim> &box, const Visitor &visitor) const = 0;
 
+    /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
+    virtual std::string position_entry() const = 0;
+
     /** All indices are below this number. */
     virtual unsigned int n_indices() const = 0;
   };

@@ -46,6 +46,9 @@ namespace Talus
     /** Writes all files of this output. `Particles<dim>` is a working set. Collective. */
     void write(const double time, const unsigned int step, const WorkingSet<dim> &particles, const Grid<dim> &grid);
 
+    /** True when the state at the end of the run has yet to be written. */
+    bool is_due_at_end(const unsigned int step) const { return with_final_state && !is_written(step); }
+
     bool is_statistics_due(const unsigned int step) const { return step % statistics_interval == 0; }
 
     /** Without a slash at its end. */
@@ -63,7 +66,7 @@ namespace Talus
     unsigned int             step_interval       = 0;
     unsigned int             statistics_interval = 1;
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
-    bool                     with_grid = true, with_csv = false;
+    bool                     with_grid = true, with_csv = false, with_final_state = true;
 
     MPI_Comm                        communicator = MPI_COMM_NULL;
     std::vector<ParticleField<dim>> fields;

@@ -1,7 +1,15 @@
 #pragma once
 
 #include <talus/core/parameters.h>
+#include <talus/postprocess/comparison.h>
+#include <talus/postprocess/output.h>
+#include <talus/postprocess/probes.h>
+#include <talus/postprocess/progress.h>
+#include <talus/postprocess/statistics.h>
 #include <talus/steppers/survey.h>
+
+#include <fstream>
+#include <sstream>
 
 namespace Talus
 {
@@ -18,14 +26,24 @@ namespace Talus
     void run();
 
   private:
-    void   set_up();
     bool   is_finished() const { return time >= end_time || (max_steps > 0 && step >= max_steps); }
+    void   set_up();
+    void   open_output();
     void   advance();
     double choose_step_size() const;
+    void   postprocess();
+    void   write_statistics();
+    void   finish();
+
+    /** Writes to the terminal and the log; rank 0. */
+    void        say(const std::string &text);
+    std::string summary() const;
 
     MPI_Comm            communicator;
     const Parameters   &parameters;
+    std::ostringstream  timing_table;
     dealii::TimerOutput timer;
+    std::ofstream       log;
 
     Grid<dim>                               grid;
     std::vector<std::unique_ptr<Material>>  materials;
@@ -37,13 +55,20 @@ namespace Talus
     ParsedVector<dim>                       acceleration;
     Model<dim>                              model;
 
+    Output<dim>                      output;
+    Probes<dim>                      probes;
+    Statistics<dim>                  statistics;
+    std::unique_ptr<Progress>        progress;
+    std::unique_ptr<Comparison<dim>> comparison; // with a finite element reference, on request
+
     std::string  acceleration_text;
     double       end_time = 1, courant_number = 0.5, fixed_step_size = 0;
     unsigned int max_steps = 0; // 0: no limit
 
-    double           time = 0, dt = 0;
-    unsigned int     step = 0;
-    Survey<dim>      now;
-    EnergyWatch<dim> energy;
+    double                 time = 0, dt = 0;
+    unsigned int           step = 0;
+    Survey<dim>            now;
+    EnergyWatch<dim>       energy;
+    dealii::Tensor<1, dim> lost_momentum; // by empty nodes since the start [mass length/time]
   };
 } // namespace Talus

@@ -43,8 +43,9 @@ namespace Talus
     /** `strain_energy` is that of the initial stress. */
     void start(const Survey<dim> &first, const double strain_energy);
 
-    /** Throws RunError. Collective. */
-    void check(const Survey<dim> &survey, const unsigned int step, const double time, const double dt);
+    /** Throws RunError, which names the fastest particle. Collective. */
+    void check(const Model<dim> &model, const Survey<dim> &survey, const unsigned int step, const double time,
+               const double dt);
 
     double body_force_work = 0; // [energy]
     double condition_work  = 0; // [energy]

@@ -6,7 +6,7 @@
 
 namespace Talus
 {
-  /** What a particle gathers from its nodes; `increment` and `B` only where the scheme asks for them. */
+  /** What a particle gathers from its nodes; `B` only where the scheme asks for it. */
   template <int dim>
   struct Gathered
   {
@@ -19,7 +19,7 @@ namespace Talus
   /**
    * All schemes that scatter v_p + C_p (x_i - x_p), Eqs. (15)-(19), and gather
    * once. A `Scheme<dim>` states how they differ:
-   * - is_affine, gathers_increment, gathers_B: constants,
+   * - is_affine, gathers_B: constants,
    * - affine(particles, p, stencil): C_p [1/time], called only if is_affine,
    * - update(particles, p, gathered): sets the particle's velocity and what the
    *   scheme stores (position and velocity gradient are the same for all),
@@ -35,106 +35,43 @@ namespace Talus
 
     void initialize(const Kernel<dim> &kernel, WorkingSet<dim> &particles) const override
     {
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       { scheme.initialize(particles, p, stencil); });
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
+        scheme.initialize(particles, p, stencil);
+      });
     }
 
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
                           const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) const override
     {
-      using Fields      = NodalFields<dim>;
-      const auto x      = particles.template components<dim>(particles.position);
-      const auto v      = particles.template components<dim>(particles.velocity);
-      const auto stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-      const auto mass   = particles.component(particles.mass, 0);
-      const auto volume = particles.component(particles.volume, 0);
-      auto       b      = acceleration.value({}, time);
-
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
-                         const double m = mass[p], V = volume[p];
-                         // The stress times volume; xy, xz, yz follow the three diagonal entries.
-                         double V_sigma[dim][dim];
-                         for (unsigned int d = 0; d < dim; ++d)
-                           for (unsigned int e = 0; e < dim; ++e)
-                             V_sigma[d][e] = V * stress[d == e ? d : 2 + d + e][p];
-                         double v_p[dim], C[dim][dim];
-                         for (unsigned int d = 0; d < dim; ++d)
-                           v_p[d] = v[d][p];
-                         if constexpr (Scheme<dim>::is_affine)
-                         {
-                           const dealii::Tensor<2, dim> affine = scheme.affine(particles, p, stencil);
-                           for (unsigned int d = 0; d < dim; ++d)
-                             for (unsigned int e = 0; e < dim; ++e)
-                               C[d][e] = affine[d][e];
-                         }
-                         if (acceleration.depends_on_space())
-                         {
-                           dealii::Point<dim> x_p;
-                           for (unsigned int d = 0; d < dim; ++d)
-                             x_p[d] = x[d][p];
-                           b = acceleration.value(x_p, time);
-                         }
-
-                         for (unsigned int k = 0; k < stencil.size; ++k)
-                         {
-                           double      *node = grid.fields[stencil.node[k]];
-                           const double m_ip = m * stencil.weight[k];
-                           node[Fields::mass] += m_ip; // Eq. (13)
-                           for (unsigned int d = 0; d < dim; ++d)
-                           {
-                             double v_ip = v_p[d];
-                             double f_ip = m_ip * b[d]; // Eq. (12)
-                             for (unsigned int e = 0; e < dim; ++e)
-                             {
-                               if constexpr (Scheme<dim>::is_affine)
-                                 v_ip += C[d][e] * stencil.offset[e][k];       // Eqs. (17), (19)
-                               f_ip -= V_sigma[d][e] * stencil.gradient[e][k]; // Eq. (11)
-                             }
-                             node[Fields::momentum + d] += m_ip * v_ip; // Eq. (16)
-                             node[Fields::force + d] += f_ip;
-                           }
-                         }
-                       });
+      const auto x = particles.template components<dim>(particles.position);
+      auto       b = acceleration.value({}, time);
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
+        if (acceleration.depends_on_space())
+        {
+          dealii::Point<dim> x_p;
+          for (unsigned int d = 0; d < dim; ++d)
+            x_p[d] = x[d][p];
+          b = acceleration.value(x_p, time);
+        }
+        scatter(contribution(particles, p, stencil, b), stencil, grid.fields);
+      });
     }
 
     void grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
                           WorkingSet<dim> &particles) const override
     {
-      using Fields      = NodalFields<dim>;
       const auto x      = particles.template components<dim>(particles.position);
       const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
-
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
-                         Gathered<dim> sum;
-                         for (unsigned int k = 0; k < stencil.size; ++k)
-                         {
-                           const double *node = grid.fields[stencil.node[k]];
-                           for (unsigned int d = 0; d < dim; ++d)
-                           {
-                             const double v_i = node[Fields::velocity + d];
-                             sum.velocity[d] += stencil.weight[k] * v_i;
-                             for (unsigned int e = 0; e < dim; ++e)
-                               sum.grad_v[d][e] += v_i * stencil.gradient[e][k];
-                             if constexpr (Scheme<dim>::gathers_increment)
-                               sum.increment[d] += stencil.weight[k] * (v_i - node[Fields::old_velocity + d]);
-                             if constexpr (Scheme<dim>::gathers_B)
-                               for (unsigned int e = 0; e < dim; ++e)
-                                 sum.B[d][e] += stencil.weight[k] * v_i * stencil.offset[e][k];
-                           }
-                         }
-                         for (unsigned int d = 0; d < dim; ++d)
-                         {
-                           x[d][p] += dt * sum.velocity[d]; // Eq. (31), for FLIP as well
-                           for (unsigned int e = 0; e < dim; ++e)
-                             grad_v[d * dim + e][p] = sum.grad_v[d][e];
-                         }
-                         scheme.update(particles, p, sum);
-                       });
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
+        const Gathered<dim> sum = gather(stencil, grid.fields);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          x[d][p] += dt * sum.velocity[d]; // Eq. (31), for FLIP as well
+          for (unsigned int e = 0; e < dim; ++e)
+            grad_v[d * dim + e][p] = sum.grad_v[d][e];
+        }
+        scheme.update(particles, p, sum);
+      });
     }
 
     dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const override
@@ -143,6 +80,86 @@ namespace Talus
     }
 
   private:
+    using Fields = NodalFields<dim>;
+    using Lanes  = typename Fields::Lanes;
+
+    /** What a particle adds to the lanes of a node: phi (constant + linear . offset) + flux . grad phi. */
+    struct Contribution
+    {
+      Lanes constant{}, linear[dim]{}, flux[dim]{};
+    };
+
+    Contribution contribution(const WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &stencil,
+                              const dealii::Tensor<1, dim> &b) const
+    {
+      const double m = particles.component(particles.mass, 0)[p], V = particles.component(particles.volume, 0)[p];
+      Contribution add;
+      add.constant[Fields::mass] = m; // Eq. (13)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        add.constant[Fields::momentum + d] = m * particles.component(particles.velocity, d)[p]; // Eq. (15)
+        add.constant[Fields::force + d]    = m * b[d];                                          // Eq. (12)
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          // xy, xz, yz follow the three diagonal components.
+          const double stress            = particles.component(particles.stress, d == e ? d : 2 + d + e)[p];
+          add.flux[e][Fields::force + d] = -V * stress; // Eq. (11)
+        }
+      }
+      if constexpr (Scheme<dim>::is_affine)
+      {
+        const dealii::Tensor<2, dim> C = scheme.affine(particles, p, stencil);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            add.linear[e][Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
+      }
+      return add;
+    }
+
+    /** The lanes of a node are treated alike, so that one vector instruction serves them all. */
+    static void scatter(const Contribution &add, const Stencil<dim> &stencil, Fields &fields)
+    {
+      for (unsigned int k = 0; k < stencil.size; ++k)
+      {
+        Lanes constant = add.constant, flux{};
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          if constexpr (Scheme<dim>::is_affine)
+            constant += add.linear[e] * stencil.offset[e][k];
+          flux += add.flux[e] * stencil.gradient[e][k];
+        }
+        fields.lanes(stencil.node[k]) += stencil.weight[k] * constant + flux;
+      }
+    }
+
+    static Gathered<dim> gather(const Stencil<dim> &stencil, const Fields &fields)
+    {
+      Lanes value{}, gradient[dim]{}, moment[dim]{};
+      for (unsigned int k = 0; k < stencil.size; ++k)
+      {
+        const Lanes node = fields.lanes(stencil.node[k]);
+        value += stencil.weight[k] * node;
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          gradient[e] += stencil.gradient[e][k] * node;
+          if constexpr (Scheme<dim>::gathers_B)
+            moment[e] += (stencil.weight[k] * stencil.offset[e][k]) * node;
+        }
+      }
+      Gathered<dim> sum;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        sum.velocity[d]  = value[Fields::velocity + d];
+        sum.increment[d] = value[Fields::increment + d];
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          sum.grad_v[d][e] = gradient[e][Fields::velocity + d];
+          sum.B[d][e]      = moment[e][Fields::velocity + d];
+        }
+      }
+      return sum;
+    }
+
     /** Evaluates the kernel for a few particles at a time, so that their stencils stay in the cache. */
     template <class Body>
     static void for_each_stencil(const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const Body &body)
@@ -165,9 +182,8 @@ namespace Talus
   template <int dim>
   struct SchemeDefaults
   {
-    static constexpr bool is_affine         = false;
-    static constexpr bool gathers_increment = false;
-    static constexpr bool gathers_B         = false;
+    static constexpr bool is_affine = false;
+    static constexpr bool gathers_B = false;
 
     void                   add_parameters(dealii::ParameterAcceptor &) {}
     void                   add_fields(WorkingSet<dim> &) {}

@@ -1,0 +1,68 @@
+"""contrib/reproduce: a benchmark is a module of contrib/benchmarks with
+
+    TITLE             one line for --list
+    runs()            the list of runs.Run
+    table(results)    a list of dictionaries, one per row of table.csv
+    figures(results)  the acceptance figures, a list of report.Figure
+    draw(results, path)   writes a figure, or nothing if too many runs have failed
+
+where `results` has a runs.Result for each run, failed ones too. A file shear_3d.py is the benchmark shear-3d.
+"""
+import argparse
+import importlib
+import pathlib
+import sys
+
+import report
+import runs
+
+BENCHMARKS = runs.ROOT / "contrib" / "benchmarks"
+
+
+def names():
+    return sorted(path.stem.replace("_", "-") for path in BENCHMARKS.glob("[a-z]*.py"))
+
+
+def load(name):
+    sys.path.insert(0, str(BENCHMARKS))
+    return importlib.import_module(name.replace("-", "_"))
+
+
+def reproduce(name, arguments):
+    benchmark = load(name)
+    directory = pathlib.Path(arguments.output or runs.ROOT / "reproduce" / name)
+    for old in ("table.csv", "figure.png"):
+        (directory / old).unlink(missing_ok=True)
+    results = runs.execute_all(benchmark.runs(), directory / "runs", arguments.jobs, arguments.ranks)
+    rows = benchmark.table(results)
+    report.write_csv(directory / "table.csv", rows)
+    print("\n" + report.format_table(rows) + "\n")
+    figures = benchmark.figures(results)
+    for figure in figures:
+        print(figure.line())
+    benchmark.draw(results, directory / "figure.png")
+    failed = sum(not figure.passes for figure in figures)
+    print(f"\n{len(figures) - failed} of {len(figures)} acceptance figures pass. "
+          f"See {', '.join(str(path) for path in sorted(directory.glob('*.*')))}.")
+    return 1 if failed else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="contrib/reproduce", description="Runs a benchmark of a paper.")
+    parser.add_argument("name", nargs="?", help="one of those that --list prints")
+    parser.add_argument("--list", action="store_true", help="print the benchmarks")
+    parser.add_argument("--jobs", type=int, default=runs.default_jobs(), help="runs at a time (%(default)s)")
+    parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run (%(default)s)")
+    parser.add_argument("--output", help="directory for the results (reproduce/NAME)")
+    arguments = parser.parse_args()
+    if arguments.list:
+        for name in names():
+            print(f"{name:12} {load(name).TITLE}")
+        return 0
+    if arguments.name not in names():
+        parser.error(f"give the name of a benchmark: {', '.join(names())}")
+    return reproduce(arguments.name, arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,62 @@
+"""Whether the files that a failed run left behind are complete and finite."""
+import base64
+import math
+import os
+import re
+import struct
+import zlib
+
+
+def numbers_of_vtu(text):
+    """All floating point numbers of a VTU file with compressed base64 arrays, as deal.II writes it."""
+    for kind, body in re.findall(r'<DataArray type="(Float32|Float64)"[^>]*format="binary">\s*([^<]*)</DataArray>', text):
+        body = body.strip()
+        # Four 32-bit numbers head the one block: count, size, size of the last block, compressed size.
+        header = struct.unpack("<4I", base64.b64decode(body[:24])[:16])
+        data = zlib.decompress(base64.b64decode(body[24:]))
+        assert len(data) == header[1]
+        size, letter = (4, "f") if kind == "Float32" else (8, "d")
+        yield from struct.unpack(f"<{len(data) // size}{letter}", data)
+
+
+def problems_in_csv(text):
+    rows = [row for row in text.splitlines() if not row.startswith("#")]
+    counts = {row.count(",") for row in rows}
+    if not text.endswith("\n") or len(counts) > 1:
+        return ["incomplete"]
+    for row in rows[1:]:
+        if not all(math.isfinite(float(value)) for value in row.split(",")):
+            return ["a number that is not finite"]
+    return []
+
+
+def problems_in_vtu(text):
+    if not text.rstrip().endswith("</VTKFile>"):
+        return ["incomplete"]
+    numbers = list(numbers_of_vtu(text))
+    if not numbers:
+        return ["no numbers found"]
+    return [] if all(math.isfinite(number) for number in numbers) else ["a number that is not finite"]
+
+
+def problems_in_directory(directory):
+    problems = []
+    names = sorted(os.listdir(directory))
+    for wanted in ("statistics.csv", "particles_00000.vtu", "particles_00000.csv", "particles.pvd", "log.txt"):
+        if wanted not in names:
+            problems.append(f"{wanted} is missing")
+    for name in names:
+        with open(os.path.join(directory, name)) as file:
+            text = file.read()
+        found = []
+        if name.endswith(".tmp"):
+            found = ["left over"]
+        elif name.endswith(".csv"):
+            found = problems_in_csv(text)
+        elif name.endswith(".vtu"):
+            found = problems_in_vtu(text)
+        elif name.endswith(".pvd"):
+            listed = re.findall(r'file="([^"]*)"', text)
+            found = [f"{file} does not exist" for file in listed if file not in names]
+        problems += [f"{name}: {problem}" for problem in found]
+    return problems

@@ -1,0 +1,56 @@
+# Tests that run the program itself. A driver prints one line per check and exits with 1 when one fails.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+# talus_add_run(NAME RANKS COMMAND...): a test that keeps `ranks` cores busy.
+function(talus_add_run name ranks)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN})
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 120)
+endfunction()
+
+set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)
+set(shear ${PROJECT_SOURCE_DIR}/prm/shear.prm)
+
+# Exit status and message of wrong inputs.
+foreach(group command_line entries numbers functions bodies points surroundings diverged)
+  foreach(ranks 1 2)
+    talus_add_run(errors.${group}.mpirun=${ranks} ${ranks}
+      ${CMAKE_CURRENT_SOURCE_DIR}/errors/run.py $<TARGET_FILE:talus> ${shear}
+      ${work}/errors/${group}.${ranks} ${group} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
+
+# talus_compare(FILE NAME "VARIANT..." "Section/Entry = value"...): the same statistics in all variants.
+string(REPLACE ";" " " mpirun "${MPIRUN}")
+function(talus_compare file name variants)
+  set(settings)
+  foreach(setting ${ARGN})
+    list(APPEND settings --set ${setting})
+  endforeach()
+  talus_add_run(compare.${file}.${name} 2
+    ${CMAKE_CURRENT_SOURCE_DIR}/compare/compare.py $<TARGET_FILE:talus>
+    ${CMAKE_CURRENT_SOURCE_DIR}/compare/${file}.prm ${work}/compare/${file}.${name} ${mpirun} ${variants} ${settings})
+endfunction()
+
+set(ranks 1 2 4)
+talus_compare(balls_2d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = TPIC")
+talus_compare(balls_2d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
+talus_compare(balls_2d uGIMP_blend "${ranks}"
+  "Kernel/Type = uGIMP" "Kernel/Boundary treatment = WLS separable" "Transfer/Type = blend")
+talus_compare(disk_2d quadratic_FLIP "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = FLIP")
+talus_compare(block_2d linear_FLIP "${ranks}")
+talus_compare(balls_3d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = TPIC")
+talus_compare(balls_3d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
+talus_compare(balls_3d uGIMP_FLIP "${ranks}" "Kernel/Type = uGIMP" "Transfer/Type = FLIP")
+# Writing output must not change the run.
+talus_compare(disk_2d output "1;2, Output/Step interval = 7, Output/CSV = true, Output/Grid = true"
+  "Transfer/Type = APIC")
+
+foreach(file flight_2d rotation_2d flight_3d rotation_3d)
+  talus_add_run(conservation.${file} 1 ${CMAKE_CURRENT_SOURCE_DIR}/conservation/run.py $<TARGET_FILE:talus>
+    ${CMAKE_CURRENT_SOURCE_DIR}/conservation/${file}.prm ${work}/conservation/${file} 1)
+endforeach()
+
+foreach(ranks 1 2)
+  talus_add_run(regression.shear.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/shear.py
+    $<TARGET_FILE:talus> ${shear} ${work}/regression/shear.${ranks} ${ranks} ${MPIRUN})
+endforeach()
