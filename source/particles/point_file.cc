@@ -37,7 +37,8 @@ namespace Talus
         }
         if (points.empty())
           throw EntryError(this->get_section_name(), "File",
-                           "the body is empty: '" + file_name + "' contains no points.");
+                           "the body is empty: '" + file_name +
+                             "' contains no points. Give one in each line: x y [z] volume.");
         std::vector<std::pair<Point<dim>, unsigned int>> entries;
         for (unsigned int i = 0; i < points.size(); ++i)
           entries.emplace_back(points[i], i);
@@ -79,8 +80,7 @@ namespace Talus
                     InputError(where + ": expected " + std::to_string(dim + 1) + " numbers (" +
                                (dim == 2 ? "x y volume" : "x y z volume") + "), found " +
                                std::to_string(numbers.size()) + ". Complete or remove the line."));
-        AssertThrow(numbers.back() > 0,
-                    InputError(where + ": the volume must be positive. Correct the last number."));
+        AssertThrow(numbers.back() > 0, InputError(where + ": the volume must be positive. Correct the last number."));
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = numbers[d];
