@@ -43,18 +43,16 @@ namespace
 int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, /* max_num_threads = */ 1);
-  return exit_status(
-    [&]()
-    {
-      const CommandLine command_line(argc, argv);
-      const bool        is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      if (command_line.wants_help && is_root)
-        std::cout << CommandLine::help();
-      else if (command_line.wants_version && is_root)
-        std::cout << "talus " << version() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
-      else if (command_line.wants_list && is_root)
-        list_registered(std::cout);
-      else if (!command_line.file_name.empty())
-        run_file(command_line);
-    });
+  return exit_status([&]() {
+    const CommandLine command_line(argc, argv);
+    const bool        is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    if (command_line.wants_help && is_root)
+      std::cout << CommandLine::help();
+    else if (command_line.wants_version && is_root)
+      std::cout << "talus " << version() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
+    else if (command_line.wants_list && is_root)
+      list_registered(std::cout);
+    else if (!command_line.file_name.empty())
+      run_file(command_line);
+  });
 }

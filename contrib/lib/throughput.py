@@ -90,6 +90,8 @@ def main():
     print(f"{n_particles} particles, median of {arguments.repeats} and range:")
     print(summary("wall time", wall))
     print(summary("processor time", processor) + ", all ranks together" * (arguments.ranks > 1))
+    if max(wall) - min(wall) > 0.2 * statistics.median(wall):
+        print("The repeats differ by more than a fifth: the machine is busy, or the runs are too short (--steps).")
     return 0
 
 

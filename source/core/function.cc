@@ -60,9 +60,7 @@ namespace Talus
 
     const std::string variables = (dim == 2) ? "x,y,t" : "x,y,z,t";
     parser                      = std::make_unique<FunctionParser<dim>>(dim);
-    const std::string reason    = formula_error(
-      [&]
-      {
+    const std::string reason    = formula_error([&] {
       parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
       value(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
     });

@@ -285,8 +285,10 @@ namespace Talus
     for (const auto &other : declared.settings)
       if (parent(other.first) == parent(key))
         siblings.push_back(leaf(other.first));
+    // Looking for the entry has made its section and those around it.
     for (const auto &section : declared.sections)
-      known_sections.push_back(section.first);
+      if ((key + "/").find(section.first + "/") != 0)
+        known_sections.push_back(section.first);
 
     if (siblings.empty())
     {

@@ -125,8 +125,8 @@ namespace Talus
 
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
     {
-      const auto connection = triangulation.signals.weight.connect([&](const auto &cell, const auto)
-                                                                   { return 1 + weight(CellIterator(cell)); });
+      const auto connection = triangulation.signals.weight.connect(
+        [&](const auto &cell, const auto) { return 1 + weight(CellIterator(cell)); });
       triangulation.repartition();
       connection.disconnect();
     }

@@ -28,9 +28,7 @@ namespace Talus
   void LinearElastic::update(const MaterialRange &range) const
   {
     const double G = shear_modulus(), lambda = bulk_modulus() - 2. / 3. * G;
-    update_stress(range,
-                  [=](const Tensor<2, 3> &grad_v_dt, const SymmetricTensor<2, 3> &stress, unsigned int)
-                  {
+    update_stress(range, [=](const Tensor<2, 3> &grad_v_dt, const SymmetricTensor<2, 3> &stress, unsigned int) {
       const SymmetricTensor<2, 3> d = symmetrize(grad_v_dt);
       // Eq. (28)
       return stress + lambda * trace(d) * unit_symmetric_tensor<3>() + 2 * G * d + jaumann_increment(grad_v_dt, stress);

@@ -68,8 +68,9 @@ namespace Talus
   {
     for (const auto &field : set.fields)
       std::copy(field.initial.begin(), field.initial.end(), properties.begin() + field.first);
-    const auto value = [&](const unsigned int field, const unsigned int c) -> double &
-    { return properties[set.fields[field].first + c]; };
+    const auto value = [&](const unsigned int field, const unsigned int c) -> double & {
+      return properties[set.fields[field].first + c];
+    };
 
     const Tensor<1, dim> v = velocity.value(x, 0.);
     for (unsigned int d = 0; d < dim; ++d)

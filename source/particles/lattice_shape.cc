@@ -12,8 +12,7 @@ namespace Talus
   double hashed_jitter(const unsigned int seed, const unsigned int index, const unsigned int axis)
   {
     // Two rounds of the finaliser of SplitMix64 over the packed arguments.
-    const auto mix = [](std::uint64_t z)
-    {
+    const auto mix = [](std::uint64_t z) {
       z += 0x9e3779b97f4a7c15ull;
       z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
       z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;

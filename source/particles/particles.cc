@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 namespace Talus
 {
@@ -41,9 +42,7 @@ namespace Talus
                     const Visitor &visitor)
     {
       const auto index = cell_index(grid.lattice, &cell->center()[0]);
-      body.shape->visit(cell->bounding_box(),
-                        [&](const unsigned int i, const Point<dim> &x, const double volume)
-                        {
+      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, const Point<dim> &x, const double volume) {
         if (cell_index(grid.lattice, &x[0]) == index)
           visitor(i, x, volume);
       });
@@ -54,16 +53,15 @@ namespace Talus
     void check_inside(const Grid<dim> &grid, const Body<dim> &body)
     {
       constexpr double far  = 1e300;
-      const auto       look = [&](const unsigned int, const Point<dim> &x, const double)
-      {
+      const auto       look = [&](const unsigned int, const Point<dim> &x, const double) {
         bool is_inside = true;
         for (unsigned int d = 0; d < dim; ++d)
           is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
         if (!is_inside)
           throw EntryError(body.get_section_name(), body.shape->position_entry(),
-                           "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
-                             to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
-                             ", upper faces excluded. Move the body, or enlarge the grid.");
+                                 "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
+                                   to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
+                                   ", upper faces excluded. Move the body, or enlarge the grid.");
       };
       for (unsigned int face = 0; face < 2 * dim; ++face)
       {
@@ -115,9 +113,7 @@ namespace Talus
       body_names.push_back(body.name);
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
-          visit_cell(grid, body, cell,
-                     [&](const unsigned int i, const Point<dim> &x, const double volume)
-                     {
+          visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {
             const Point<dim> location = inside_cell(grid.lattice, &x[0]);
             body.initialize(x, volume, *materials[body.material], *this, properties);
             home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,

@@ -21,12 +21,10 @@ namespace Talus
   template <int dim>
   void Region<dim>::parse_parameters(ParameterHandler &)
   {
-    const std::string reason = formula_error(
-      [&]
-      {
-        parser.initialize(dim == 2 ? "x,y" : "x,y,z", expression, {{"pi", numbers::PI}});
-        parser.value(Point<dim>());
-      });
+    const std::string reason = formula_error([&] {
+      parser.initialize(dim == 2 ? "x,y" : "x,y,z", expression, {{"pi", numbers::PI}});
+      parser.value(Point<dim>());
+    });
     if (!reason.empty())
       throw EntryError(get_section_name(), "Where",
                        "cannot understand '" + expression + "': " + reason + ". Write a condition on " +

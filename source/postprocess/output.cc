@@ -132,11 +132,10 @@ namespace Talus
       throw failure;
     }
     run_on_root(
-      [&]
-      {
-      AssertThrow(is_complete_vtu(temporary), failure);
-      rename_file(temporary, final_name);
-      write_series(name);
+      [&] {
+        AssertThrow(is_complete_vtu(temporary), failure);
+        rename_file(temporary, final_name);
+        write_series(name);
       },
       communicator);
   }

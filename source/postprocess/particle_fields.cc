@@ -93,26 +93,24 @@ namespace Talus
     {
       using Set = WorkingSet<dim>;
       std::vector<ParticleField<dim>> fields;
-      const auto add = [&](const std::string &name, const std::string &unit, const unsigned int n, const auto &evaluate)
-      {
+      const auto                      add = [&](const std::string &name, const std::string &unit, const unsigned int n,
+                           const auto &evaluate) {
         fields.push_back({name, unit, component_names(name, dim, n), n == dim, evaluate});
       };
 
-      add("displacement", "length", dim,
-          [](const Set &set, const unsigned int p, double *u)
-          {
+      add("displacement", "length", dim, [](const Set &set, const unsigned int p, double *u) {
         for (unsigned int d = 0; d < dim; ++d)
           u[d] = set.component(set.position, d)[p] - set.component(set.initial_position, d)[p];
       });
       // sqrt(3/2) |s|
-      add("von Mises stress", "stress", 1,
-          [](const Set &set, const unsigned int p, double *value)
-          { *value = std::sqrt(1.5) * deviator(stress(set, p)).norm(); });
+      add("von Mises stress", "stress", 1, [](const Set &set, const unsigned int p, double *value) {
+        *value = std::sqrt(1.5) * deviator(stress(set, p)).norm();
+      });
       add("pressure", "stress", 1,
           [](const Set &set, const unsigned int p, double *value) { *value = -trace(stress(set, p)) / 3; });
-      add("density", "mass/volume", 1,
-          [](const Set &set, const unsigned int p, double *value)
-          { *value = set.component(set.mass, 0)[p] / set.component(set.volume, 0)[p]; });
+      add("density", "mass/volume", 1, [](const Set &set, const unsigned int p, double *value) {
+        *value = set.component(set.mass, 0)[p] / set.component(set.volume, 0)[p];
+      });
       add("volume ratio", "1", 1,
           [](const Set &set, const unsigned int p, double *value) { *value = volume_ratio(set, p); });
       add("kinetic energy density", "energy/volume", 1,
@@ -130,10 +128,9 @@ namespace Talus
       const std::string &name = particles.fields[f].name;
       const unsigned int n    = particles.fields[f].n_components;
       all.push_back({name, unit_of(name), component_names(name, dim, n), n == dim,
-                     [f, n](const WorkingSet<dim> &set, const unsigned int p, double *values)
-                     {
-        for (unsigned int c = 0; c < n; ++c)
-          values[c] = set.component(f, c)[p];
+                     [f, n](const WorkingSet<dim> &set, const unsigned int p, double *values) {
+                       for (unsigned int c = 0; c < n; ++c)
+                         values[c] = set.component(f, c)[p];
                      }});
     }
     // A field that a material or transfer stores is taken before a derived one of the same name.

@@ -119,8 +119,7 @@ namespace Talus
       for (const auto &part : parts)
         column.insert(column.end(), part.begin(), part.end());
     }
-    const auto write = [&](std::ostream &out)
-    {
+    const auto write = [&](std::ostream &out) {
       write_header(out, fields, time);
       std::vector<std::size_t> order(columns[0].size());
       std::iota(order.begin(), order.end(), 0);

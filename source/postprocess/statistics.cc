@@ -16,14 +16,13 @@ namespace Talus
     this->columns = columns;
     is_root       = Utilities::MPI::this_mpi_process(communicator) == 0;
     run_on_root(
-      [&]
-      {
-      std::string header;
-      for (const auto &column : columns)
-        header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
-      file.open(path);
-      file << header << std::endl;
-      AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
+      [&] {
+        std::string header;
+        for (const auto &column : columns)
+          header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
+        file.open(path);
+        file << header << std::endl;
+        AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
       },
       communicator);
   }

@@ -197,8 +197,7 @@ namespace Talus
   template <int dim>
   std::string Simulation<dim>::summary() const
   {
-    const auto chosen = [](const std::string &section, const std::string &entry)
-    {
+    const auto chosen = [](const std::string &section, const std::string &entry) {
       prm.enter_subsection(section);
       const std::string value = prm.get(entry);
       prm.leave_subsection();

@@ -57,43 +57,35 @@ void errors()
   check_text("condition without a name in the list", "list 'roof' in 'Names'",
              Test::conditions("floor", good + Test::condition("roof", "3", "0; 0")));
 
-  check_message("no condition", "free to move",
-                []()
-                {
-                  auto reference = Test::make_reference<2>("");
-                  reference->set_moduli(2., 1.);
-                  reference->solve(0.);
-                });
+  check_message("no condition", "free to move", []() {
+    auto reference = Test::make_reference<2>("");
+    reference->set_moduli(2., 1.);
+    reference->solve(0.);
+  });
   check_message("free to slide", "free to move", []() { solved(Test::condition("floor", "2", "0; 0", "y")); });
-  check_message("free to spin in 3D", "free to move",
-                []()
-                {
-                  auto reference =
-                    Test::make_reference<3>(Test::set("Cells", "2, 2, 2") +
-                                            Test::conditions("x, y, z", Test::condition("x", "0", "0; 0; 0", "x") +
-                                                                          Test::condition("y", "1", "0; 0; 0", "x") +
-                                                                          Test::condition("z", "4", "0; 0; 0", "z")));
-                  reference->set_moduli(2., 1.);
-                  reference->solve(0.);
-                });
+  check_message("free to spin in 3D", "free to move", []() {
+    auto reference = Test::make_reference<3>(Test::set("Cells", "2, 2, 2") +
+                                             Test::conditions("x, y, z", Test::condition("x", "0", "0; 0; 0", "x") +
+                                                                           Test::condition("y", "1", "0; 0; 0", "x") +
+                                                                           Test::condition("z", "4", "0; 0; 0", "z")));
+    reference->set_moduli(2., 1.);
+    reference->solve(0.);
+  });
   check_message("nearly incompressible", "Choose a Poisson's ratio of at most 0.49",
                 []() { Test::make_reference<2>("")->set_moduli(60., 1.); });
   check_message("negative modulus", "positive moduli", []() { Test::make_reference<2>("")->set_moduli(-1., 1.); });
   check_message("unknown condition", "has no condition 'flor'. Did you mean 'floor'?",
                 []() { solved()->force("flor"); });
-  const auto outside = [](const Point<2> &point)
-  {
+  const auto outside = [](const Point<2> &point) {
     // Only one rank asks for it, all must throw.
     const bool is_root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     return is_root ? std::vector<Point<2>>{{.5, .5}, point} : std::vector<Point<2>>{};
   };
-  check_message("stress outside", "The point (0.5 1.25) lies outside",
-                [&]() {
-                  solved()->stress(outside({.5, 1.25}));
-                });
+  check_message("stress outside", "The point (0.5 1.25) lies outside", [&]() {
+    solved()->stress(outside({.5, 1.25}));
+  });
   check_message("displacement outside",
-                "(-0.001 0.5) lies outside the box of the elastic reference, from (0 0) to (1 1)",
-                [&]() {
+                "(-0.001 0.5) lies outside the box of the elastic reference, from (0 0) to (1 1)", [&]() {
                   solved()->displacement(outside({-.001, .5}));
                 });
   check_message("point that is not a number", "lies outside", [&]() { solved()->stress(outside({std::nan(""), .5})); });

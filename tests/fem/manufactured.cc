@@ -22,8 +22,7 @@ namespace
   template <typename Value, int dim>
   Value difference(const std::function<Value(const Point<dim> &)> &f, const Point<dim> &x, const unsigned int j)
   {
-    const auto at = [&](const double steps)
-    {
+    const auto at = [&](const double steps) {
       Point<dim> y = x;
       y[j] += steps * h;
       return f(y);

@@ -67,7 +67,7 @@ namespace Test
   }
 
   /**
-   * A grid on [0, 4]^dim with h = 1/2 and a body on [0, 2] x [0, 1]^(dim-1) with 2^dim
+   * A grid on [0, 8] x [0, 2]^(dim-1) with h = 1/2 and a body on [0, 4] x [0, 1]^(dim-1) with 2^dim
    * particles per cell, which two ranks share, and the objects that write them.
    */
   template <int dim>
@@ -97,8 +97,8 @@ namespace Test
       {
         const std::string comma = d == 0 ? "" : ", ";
         number_lists[0] += comma + "0";
-        number_lists[1] += comma + "4";
-        number_lists[2] += comma + (d == 0 ? "2" : "1");
+        number_lists[1] += comma + (d == 0 ? "8" : "2");
+        number_lists[2] += comma + (d == 0 ? "4" : "1");
       }
       return "subsection Grid\n set Lower corner = " + number_lists[0] + "\n set Upper corner = " + number_lists[1] +
              "\n set Spacing = 0.5\nend\nsubsection Bodies\n subsection b\n  set Lower corner = " + number_lists[0] +

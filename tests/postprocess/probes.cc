@@ -10,13 +10,13 @@ namespace
     return "subsection " + name + "\nset Kind = " + kind + "\nset Position = " + position + "\nend\n";
   }
 
-  /** Two probes at the corner (2, 1) of the body, whose nearest particle sits 1/8 inside. */
+  /** Two probes at the corner (4, 1) of the body, whose nearest particle sits 1/8 inside. */
   template <int dim>
   void check_probes()
   {
     const std::string d    = " in " + std::to_string(dim) + "D";
     const std::string base = scratch();
-    const std::string x    = dim == 2 ? "2, 1" : "2, 1, 1";
+    const std::string x    = dim == 2 ? "4, 1" : "4, 1, 1";
     Fixture<dim>      run("subsection Probes\nset Names = tip, corner\n" + probe("tip", "particle", x) +
                           probe("corner", "point", x) + "end\n");
     run.create();
@@ -45,14 +45,14 @@ namespace
     const unsigned int n = 2 * dim + particles.n_stress; // columns of a particle
     check_true("all columns" + d, first.size() == 2 + 2 * n);
     const double last = particles.n_global - 1; // id of the last lattice point, at the corner
-    check("the particle is found" + d, first[1] - 1.875, 1e-14);
+    check("the particle is found" + d, first[1] - 3.875, 1e-14);
     check("in all directions" + d, first[dim] - 0.875, 1e-14);
-    check("and followed" + d, second[1] - 2.625, 1e-14);
+    check("and followed" + d, second[1] - 4.625, 1e-14);
     check("with its stress" + d, second[1 + 2 * dim + 1] - (last + 0.25), 1e-14);
     check("the point's nearest particle is the same at first" + d, first[1 + n + 1] - first[1], 1e-15);
     check("at its distance" + d, first[1 + n] - std::sqrt(dim) / 8, 1e-14);
-    // 1.125 + 0.75 = 1.875 and 2.125 are equally far: the lower id, three points back, is taken.
-    check("later another one" + d, second[1 + n + 1] - 1.875, 1e-14);
+    // 3.125 + 0.75 = 3.875 and 4.125 are equally far: the lower id, three points back, is taken.
+    check("later another one" + d, second[1 + n + 1] - 3.875, 1e-14);
     check("with its stress" + d, second[1 + n + 1 + 2 * dim] - (last - 3), 1e-14);
   }
 } // namespace
@@ -74,15 +74,14 @@ void test_probes()
 void test_probe_errors()
 {
   const std::string base = scratch();
-  const auto        open = [&](const std::string &entries)
-  {
+  const auto        open = [&](const std::string &entries) {
     Fixture<2> run("subsection Probes\nset Names = a\n" + entries + "end\n");
     run.create();
     run.probes.open(base, run.particles, run.grid);
   };
   check_throws<EntryError>("outside the grid", "outside the grid", [&] { open(probe("a", "point", "1, 4.5")); });
   check_throws<EntryError>("no particle near", "no particle starts within",
-                           [&] { open(probe("a", "particle", "3, 3")); });
+                           [&] { open(probe("a", "particle", "6, 1.5")); });
   check_throws<EntryError>("unknown field", "there is no particle field 'colour'",
                            [&] { open("set Fields = colour\n" + probe("a", "point", "1, 1")); });
 }

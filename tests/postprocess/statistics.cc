@@ -23,17 +23,14 @@ void test_statistics()
   check_true("names and units", table[0] == "time [time],step [1],kinetic energy [energy]");
   check_true("all digits",
              table.size() == 3 && read_numbers(table[2])[2] == -1e-300 && read_numbers(table[1])[2] == 1. / 3);
-  check_throws<RunError>("a number that is not finite", "'kinetic energy' is not a finite number when time = 0.3",
-                         [&] {
-                           statistics.write_row({0.3, 3, std::nan("")});
-                         });
+  check_throws<RunError>("a number that is not finite", "'kinetic energy' is not a finite number when time = 0.3", [&] {
+    statistics.write_row({0.3, 3, std::nan("")});
+  });
   check_true("does not reach the file", lines(path).size() == 3);
-  check_throws<RunError>("a file that cannot be written", "Cannot write '" + base + "/gone/statistics.csv'",
-                         [&]
-                         {
-                           Statistics<3> other;
-                           other.open(base + "/gone/statistics.csv", {{"time", "time"}});
-                         });
+  check_throws<RunError>("a file that cannot be written", "Cannot write '" + base + "/gone/statistics.csv'", [&] {
+    Statistics<3> other;
+    other.open(base + "/gone/statistics.csv", {{"time", "time"}});
+  });
 }
 
 namespace

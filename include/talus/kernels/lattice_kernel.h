@@ -54,7 +54,8 @@ namespace Talus
         }
         else
           multiply<true>(axes, base, stencil);
-        if (is_truncated || this->treatment->is_everywhere())
+        // Two nodes per axis leave least squares no choice: it would return the kernel itself, or 0/0 at a node.
+        if (is_truncated || (Function::n > 2 && this->treatment->is_everywhere()))
           this->treatment->correct_stencil(stencil, this->lattice->inverse_h);
       }
     }

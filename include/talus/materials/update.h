@@ -11,8 +11,7 @@ namespace Talus
   template <class Law>
   void update_stress(const MaterialRange &range, const Law &law)
   {
-    const auto run = [&](const auto n)
-    {
+    const auto run = [&](const auto n) {
       // The tensors' in-plane components; out of plane grad v is zero.
       constexpr unsigned int dim      = decltype(n)::value;
       constexpr unsigned int n_stress = dim == 2 ? 4 : 6;

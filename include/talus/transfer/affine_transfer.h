@@ -35,9 +35,9 @@ namespace Talus
 
     void initialize(const Kernel<dim> &kernel, WorkingSet<dim> &particles) const override
     {
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       { scheme.initialize(particles, p, stencil); });
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
+        scheme.initialize(particles, p, stencil);
+      });
     }
 
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
@@ -45,9 +45,7 @@ namespace Talus
     {
       const auto x = particles.template components<dim>(particles.position);
       auto       b = acceleration.value({}, time);
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
         if (acceleration.depends_on_space())
         {
           dealii::Point<dim> x_p;
@@ -64,9 +62,7 @@ namespace Talus
     {
       const auto x      = particles.template components<dim>(particles.position);
       const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
-      for_each_stencil(particles, kernel,
-                       [&](const unsigned int p, const Stencil<dim> &stencil)
-                       {
+      for_each_stencil(particles, kernel, [&](const unsigned int p, const Stencil<dim> &stencil) {
         const Gathered<dim> sum = gather(stencil, grid.fields);
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -84,13 +80,13 @@ namespace Talus
     }
 
   private:
-    using Fields                        = NodalFields<dim>;
-    static constexpr unsigned int lanes = Fields::stride;
+    using Fields = NodalFields<dim>;
+    using Lanes  = typename Fields::Lanes;
 
     /** What a particle adds to the lanes of a node: phi (constant + linear . offset) + flux . grad phi. */
     struct Contribution
     {
-      double constant[lanes] = {}, linear[dim][lanes] = {}, flux[dim][lanes] = {};
+      Lanes constant{}, linear[dim]{}, flux[dim]{};
     };
 
     Contribution contribution(const WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &stencil,
@@ -125,36 +121,29 @@ namespace Talus
     {
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        double *node = fields[stencil.node[k]];
-        for (unsigned int lane = 0; lane < lanes; ++lane)
+        Lanes constant = add.constant, flux{};
+        for (unsigned int e = 0; e < dim; ++e)
         {
-          double constant = add.constant[lane], flux = 0;
-          for (unsigned int e = 0; e < dim; ++e)
-          {
-            if constexpr (Scheme<dim>::is_affine)
-              constant += add.linear[e][lane] * stencil.offset[e][k];
-            flux += add.flux[e][lane] * stencil.gradient[e][k];
-          }
-          node[lane] += stencil.weight[k] * constant + flux;
+          if constexpr (Scheme<dim>::is_affine)
+            constant += add.linear[e] * stencil.offset[e][k];
+          flux += add.flux[e] * stencil.gradient[e][k];
         }
+        fields.lanes(stencil.node[k]) += stencil.weight[k] * constant + flux;
       }
     }
 
     static Gathered<dim> gather(const Stencil<dim> &stencil, const Fields &fields)
     {
-      double value[lanes] = {}, gradient[dim][lanes] = {}, moment[dim][lanes] = {};
+      Lanes value{}, gradient[dim]{}, moment[dim]{};
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        const double *node = fields[stencil.node[k]];
-        for (unsigned int lane = 0; lane < lanes; ++lane)
+        const Lanes node = fields.lanes(stencil.node[k]);
+        value += stencil.weight[k] * node;
+        for (unsigned int e = 0; e < dim; ++e)
         {
-          value[lane] += stencil.weight[k] * node[lane];
-          for (unsigned int e = 0; e < dim; ++e)
-          {
-            gradient[e][lane] += stencil.gradient[e][k] * node[lane];
-            if constexpr (Scheme<dim>::gathers_B)
-              moment[e][lane] += stencil.weight[k] * stencil.offset[e][k] * node[lane];
-          }
+          gradient[e] += stencil.gradient[e][k] * node;
+          if constexpr (Scheme<dim>::gathers_B)
+            moment[e] += (stencil.weight[k] * stencil.offset[e][k]) * node;
         }
       }
       Gathered<dim> sum;

@@ -1,0 +1,29 @@
+#include "../check.h"
+
+void syntax_errors();
+void value_errors();
+void unknown_entries();
+void overrides();
+void included_files();
+void located_errors();
+void printing();
+void names();
+void expressions();
+void reduction();
+void registry();
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"parameters: syntax errors", syntax_errors},
+                    {"parameters: value errors", value_errors},
+                    {"parameters: unknown entries", unknown_entries},
+                    {"parameters: overrides", overrides},
+                    {"parameters: included files", included_files},
+                    {"parameters: located errors", located_errors},
+                    {"parameters: printing", printing},
+                    {"parameters: names", names},
+                    {"expressions", expressions},
+                    {"reduction", reduction},
+                    {"registry", registry}});
+}

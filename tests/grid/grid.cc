@@ -1,0 +1,267 @@
+#include "../setup.h"
+
+using namespace Test;
+using namespace dealii;
+
+namespace
+{
+  constexpr std::array<int, 3>    cells = {{6, 5, 4}};
+  constexpr std::array<double, 3> lower = {{-0.3, 0.7, 0.2}}, h = {{0.1, 0.08, 0.125}};
+
+  template <int dim>
+  Setup<dim> setup()
+  {
+    return Setup<dim>(skewed_grid<dim>(cells));
+  }
+
+  template <int dim>
+  unsigned int total_nodes()
+  {
+    unsigned int n = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      n *= cells[d] + 1;
+    return n;
+  }
+} // namespace
+
+/** Every node has one owner; positions follow from the indices; a rank numbers its own nodes along x first. */
+template <int dim>
+void nodes()
+{
+  const auto  s    = setup<dim>();
+  const auto &grid = s.grid;
+  check("number of owned nodes", sum(grid.fields.n_owned()) - total_nodes<dim>(), 0.5);
+  double position_error = 0;
+  bool   is_sorted      = true;
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      raise(position_error, grid.node_position(i)[d] - lower[d] - grid.node_index[i][d] * h[d]);
+    if (i > 0 && i < grid.fields.n_owned())
+      is_sorted =
+        is_sorted && std::lexicographical_compare(grid.node_index[i - 1].rbegin(), grid.node_index[i - 1].rend(),
+                                                  grid.node_index[i].rbegin(), grid.node_index[i].rend());
+  }
+  check("positions", position_error, 1e-14);
+  check_true("owned nodes are in lexicographic order", is_sorted);
+}
+
+/** The tables agree with the triangulation: vertices and centres of this rank's cells. */
+template <int dim>
+void tables()
+{
+  const auto   s           = setup<dim>();
+  const auto  &lattice     = s.grid.lattice;
+  bool         nodes_agree = true, cells_agree = true;
+  unsigned int n_cells = 0;
+  for (const auto &cell : s.grid.triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+    {
+      ++n_cells;
+      typename Lattice<dim>::Index index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = static_cast<int>(std::floor(lattice.coordinate(cell->center()[d], d)));
+      const unsigned int found = lattice.cell[lattice.table_index(index)];
+      cells_agree              = cells_agree && found != lattice.missing && s.grid.owned_cell(found) == cell;
+      for (const unsigned int v : cell->vertex_indices())
+      {
+        auto corner = index;
+        for (unsigned int d = 0; d < dim; ++d)
+          corner[d] += (v >> d) % 2;
+        const unsigned int node = lattice.node[lattice.table_index(corner)];
+        nodes_agree =
+          nodes_agree && node != lattice.missing && s.grid.node_position(node).distance(cell->vertex(v)) < 1e-14;
+      }
+    }
+  unsigned int n_known = 0, n_known_cells = 0;
+  for (const unsigned int node : lattice.node)
+    n_known += node != lattice.missing;
+  for (const unsigned int cell : lattice.cell)
+    n_known_cells += cell != lattice.missing;
+  check_true("cells", cells_agree);
+  check_true("nodes", nodes_agree);
+  check_true("no more nodes than known", n_known == s.grid.fields.n_local());
+  check_true("no more cells than owned", n_known_cells == n_cells);
+}
+
+template <int dim>
+void boundary_nodes()
+{
+  const auto s = setup<dim>();
+  for (unsigned int id = 0; id < 2 * dim; ++id)
+  {
+    const auto         list  = s.grid.nodes_on_boundary(id);
+    const unsigned int axis  = id / 2;
+    double             error = 0;
+    for (const unsigned int i : list)
+      raise(error, s.grid.node_position(i)[axis] - lower[axis] - (id % 2) * cells[axis] * h[axis]);
+    const std::string name = "boundary " + std::to_string(id);
+    check(name + ": number", sum(list.size()) - total_nodes<dim>() / (cells[axis] + 1), 0.5);
+    check(name + ": position", error, 1e-14);
+  }
+  Point<dim> a, b;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    a[d] = lower[d] + 0.5 * h[d];
+    b[d] = lower[d] + 2.5 * h[d];
+  }
+  check("nodes in a box: 2 per direction", sum(s.grid.nodes_in_box(a, b).size()) - std::pow(2, dim), 0.5);
+}
+
+/** Each rank adds 1 to the nodes of each of its cells: the sum is the number of cells that share a node. */
+template <int dim>
+void exchange()
+{
+  auto  s       = setup<dim>();
+  auto &grid    = s.grid;
+  auto &lattice = grid.lattice;
+  for (const bool is_repeated : {false, true}) // clear() must reset the copies as well
+  {
+    grid.clear();
+    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
+      if (lattice.cell[entry] != lattice.missing)
+        for (unsigned int v = 0; v < 1u << dim; ++v)
+        {
+          unsigned int corner = entry;
+          for (unsigned int d = 0; d < dim; ++d)
+            corner += (v >> d) % 2 * lattice.stride[d];
+          for (unsigned int lane = 0; lane < 8; ++lane)
+            grid.fields[lattice.node[corner]][lane] += lane + 1;
+        }
+    grid.fields.add_copies_to_owners();
+    grid.fields.update_copies();
+    double error = 0;
+    for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+    {
+      double n_sharing = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_sharing *= grid.node_index[i][d] == 0 || grid.node_index[i][d] == cells[d] ? 1 : 2;
+      for (unsigned int lane = 0; lane < 8; ++lane)
+        raise(error, grid.fields[i][lane] - (lane + 1) * n_sharing);
+    }
+    check(is_repeated ? "again" : "owners and copies", error, 1e-15);
+  }
+}
+
+/** A stencil is covered when every node of it that lies in the domain is known; here it is counted by hand. */
+template <int dim>
+void coverage()
+{
+  const auto  s       = setup<dim>();
+  const auto &lattice = s.grid.lattice;
+  for (const int n : {2, 3, 4})
+  {
+    const auto covered  = lattice.coverage(n);
+    bool       is_right = true, own_cells = true;
+    const int  shift         = n == 4 ? 1 : 0;
+    unsigned   n_stencil     = std::pow(n, dim) + .5;
+    unsigned   n_not_covered = 0;
+    for (unsigned int entry = 0; entry < covered.size(); ++entry)
+    {
+      typename Lattice<dim>::Index base;
+      for (unsigned int d = 0; d < dim; ++d)
+        base[d] = lattice.first[d] + static_cast<int>(entry) / lattice.stride[d] % lattice.extent[d];
+      bool is_known = true;
+      for (unsigned int k = 0; k < n_stencil; ++k)
+      {
+        auto index     = base;
+        bool is_domain = true;
+        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
+        {
+          index[d] += rest % n;
+          is_domain = is_domain && index[d] >= 0 && index[d] <= cells[d];
+        }
+        if (is_domain)
+          is_known =
+            is_known && std::find(s.grid.node_index.begin(), s.grid.node_index.end(), index) != s.grid.node_index.end();
+      }
+      is_right = is_right && is_known == static_cast<bool>(covered[entry]);
+      n_not_covered += !is_known;
+    }
+    // All stencils of this rank's cells: their first node is that of the cell, or the one before.
+    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
+      if (lattice.cell[entry] != lattice.missing)
+        for (unsigned int k = 0; k < 1u << dim; ++k)
+        {
+          int base = entry;
+          for (unsigned int d = 0; d < dim; ++d)
+            base -= (n == 2 ? 0 : n == 4 ? shift : (k >> d) % 2) * lattice.stride[d];
+          own_cells = own_cells && covered[base];
+        }
+    const std::string name = std::to_string(n) + " nodes per axis";
+    check_true(name + ": known nodes", is_right);
+    check_true(name + ": own cells are covered", own_cells);
+    if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+      check_true(name + ": one rank knows all", n_not_covered == 0);
+    else
+      check_true(name + ": two ranks do not", n_not_covered > 0);
+  }
+}
+
+/** v = p/m + dt f/m; nodes at or below the floor get v = 0 and their momentum is counted. */
+template <int dim>
+void velocity_update()
+{
+  auto s            = setup<dim>();
+  using Fields      = NodalFields<dim>;
+  s.grid.mass_floor = 1e-6;
+  double error      = 0;
+  for (unsigned int i = 0; i < s.grid.fields.n_owned(); ++i)
+  {
+    double *node       = s.grid.fields[i];
+    node[Fields::mass] = i % 3 == 0 ? 2. : i % 3 == 1 ? 1e-6 : 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      node[Fields::momentum + d] = 0.3 + d;
+      node[Fields::force + d]    = 5. - d;
+    }
+  }
+  s.grid.update_velocity(0.1);
+  unsigned int n_empty = 0;
+  for (unsigned int i = 0; i < s.grid.fields.n_owned(); ++i)
+  {
+    n_empty += i % 3 != 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double *node = s.grid.fields[i];
+      raise(error, node[Fields::velocity + d] - (i % 3 == 0 ? (0.3 + d) / 2 + 0.1 * (5. - d) / 2 : 0.));
+      raise(error, node[Fields::increment + d] - (i % 3 == 0 ? 0.1 * (5. - d) / 2 : 0.));
+    }
+  }
+  check("velocities", error, 1e-15);
+  for (unsigned int d = 0; d < dim; ++d)
+    check("lost momentum " + std::to_string(d), s.grid.lost_momentum[d] - n_empty * (0.3 + d), 1e-12);
+}
+
+template <int dim>
+void grid_errors()
+{
+  const std::string cells_entry = set("Cells", coordinates<dim>({{4, 4, 4}}));
+  const auto        error       = [](const std::string &name, const std::string &content, const std::string &entry,
+                        const std::string &message) {
+    check_error<EntryError>(name, {"/Grid: " + entry, message}, [&] { Setup<dim> s(section("Grid", content)); });
+  };
+  error("no spacing", "", "Spacing", "either 'Spacing' or 'Cells'");
+  error("spacing and cells", set("Spacing", "0.25") + cells_entry, "Spacing", "not both");
+  error("too few cell counts", set("Cells", "4"), "Cells", "give " + std::to_string(dim) + " numbers");
+  error("empty box", cells_entry + set("Upper corner", coordinates<dim>({{1, 0, 1}})), "Upper corner",
+        "above the lower");
+  error("spacing does not divide", set("Spacing", "0.3"), "Spacing", "3.333333 spacings long in direction x");
+  error("zero spacing", set("Spacing", "0"), "Spacing", "must be positive");
+  Setup<dim> s(section("Grid", set("Spacing", coordinates<dim>({{0.25, 0.5, 1}}))));
+  bool       is_right = true;
+  for (unsigned int d = 0; d < dim; ++d)
+    is_right = is_right && s.grid.lattice.n_cells[d] == (4 >> d);
+  check_true("a spacing for each direction", is_right);
+}
+
+#define INSTANTIATE(name)                                                                                              \
+  template void name<2>();                                                                                             \
+  template void name<3>();
+INSTANTIATE(nodes)
+INSTANTIATE(tables)
+INSTANTIATE(boundary_nodes)
+INSTANTIATE(exchange)
+INSTANTIATE(coverage)
+INSTANTIATE(velocity_update)
+INSTANTIATE(grid_errors)

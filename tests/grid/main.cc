@@ -1,0 +1,31 @@
+#include "../check.h"
+
+#define DECLARE(name)                                                                                                  \
+  template <int dim>                                                                                                   \
+  void name();
+DECLARE(nodes)
+DECLARE(tables)
+DECLARE(boundary_nodes)
+DECLARE(exchange)
+DECLARE(coverage)
+DECLARE(velocity_update)
+DECLARE(grid_errors)
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"nodes 2D", nodes<2>},
+                    {"nodes 3D", nodes<3>},
+                    {"tables 2D", tables<2>},
+                    {"tables 3D", tables<3>},
+                    {"boundary nodes 2D", boundary_nodes<2>},
+                    {"boundary nodes 3D", boundary_nodes<3>},
+                    {"exchange 2D", exchange<2>},
+                    {"exchange 3D", exchange<3>},
+                    {"coverage 2D", coverage<2>},
+                    {"coverage 3D", coverage<3>},
+                    {"velocity update 2D", velocity_update<2>},
+                    {"velocity update 3D", velocity_update<3>},
+                    {"errors 2D", grid_errors<2>},
+                    {"errors 3D", grid_errors<3>}});
+}

@@ -1,0 +1,240 @@
+#include "../setup.h"
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+using namespace Test;
+using namespace dealii;
+
+namespace
+{
+  /** A unit box of 8 cells per direction. */
+  const std::string grid_entries = set("Spacing", "0.125");
+
+  std::string text(const std::string &body) { return section("Grid", grid_entries) + body_text(body); }
+
+  template <int dim>
+  std::string box(const double lower, const double upper)
+  {
+    return set("Lower corner", coordinates<dim>({{lower, lower, lower}})) +
+           set("Upper corner", coordinates<dim>({{upper, upper, upper}}));
+  }
+
+  template <int dim>
+  double total(const Setup<dim> &setup, const unsigned int field)
+  {
+    double result = 0;
+    for (unsigned int p = 0; p < setup.particles.size(); ++p)
+      result += setup.particles.component(field, 0)[p];
+    return sum(result);
+  }
+
+  /** Every id in [0, n) once over all ranks. */
+  template <int dim>
+  bool has_ids(const Setup<dim> &setup, const unsigned int n)
+  {
+    const auto                      all = Utilities::MPI::gather(MPI_COMM_WORLD, setup.particles.id, 0);
+    std::set<types::particle_index> ids;
+    unsigned int                    n_ids = 0;
+    for (const auto &of_rank : all)
+    {
+      ids.insert(of_rank.begin(), of_rank.end());
+      n_ids += of_rank.size();
+    }
+    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0 ||
+           (n_ids == n && ids.size() == n && *ids.begin() == 0 && *ids.rbegin() == n - 1);
+  }
+} // namespace
+
+/** Position and id by one formula of the id alone, so that no rank count can matter. */
+template <int dim>
+void lattice()
+{
+  for (const double jitter : {0., 0.7})
+    for (const int per_cell : {1, 2, 3})
+    {
+      Setup<dim> setup(text(box<dim>(0.25, 0.75) + set("Particles per cell and direction", std::to_string(per_cell)) +
+                            set("Jitter", std::to_string(jitter)) + set("Seed", "5")));
+      const unsigned int n_axis = 4 * per_cell, n = std::pow(n_axis, dim) + .5;
+      const double       distance = 0.125 / per_cell;
+      double             error    = 0;
+      for (unsigned int p = 0; p < setup.particles.size(); ++p)
+        for (unsigned int d = 0, rest = setup.particles.id[p]; d < dim; ++d, rest /= n_axis)
+        {
+          const double shift = 0.5 * distance * jitter * hashed_jitter(5, setup.particles.id[p], d);
+          raise(error, setup.position(p)[d] - (0.25 + (rest % n_axis + 0.5) * distance + shift));
+        }
+      const std::string name = std::to_string(per_cell) + " per cell, jitter " + std::to_string(jitter);
+      check_true(name + ": ids", has_ids(setup, n));
+      check_true(name + ": n_global", setup.particles.n_global == n);
+      check(name + ": positions", error, 1e-15);
+      check(name + ": volume", total(setup, setup.particles.volume) / std::pow(0.5, dim) - 1, 1e-13);
+      check(name + ": mass", total(setup, setup.particles.mass) / (3 * std::pow(0.5, dim)) - 1, 1e-13);
+    }
+  // The jitter is uniform in [-1, 1): mean 0 and variance 1/3 within four standard errors, and no two axes alike.
+  double     mean = 0, variance = 0, product = 0;
+  const auto n = 10000;
+  for (unsigned int i = 0; i < n; ++i)
+  {
+    mean += hashed_jitter(1, i, 0) / n;
+    variance += std::pow(hashed_jitter(1, i, 0), 2) / n;
+    product += hashed_jitter(1, i, 0) * hashed_jitter(1, i, 1) / n;
+  }
+  check("jitter: mean", mean, 4 * std::sqrt(1. / 3 / n));
+  check("jitter: variance", variance - 1. / 3, 4 * std::sqrt(4. / 45 / n));
+  check("jitter: axes", product, 4 * std::sqrt(1. / 9 / n));
+}
+
+/** Counts of lattice points in balls and cylinders, counted here; their volume approaches that of the shape. */
+template <int dim>
+void round_bodies()
+{
+  const std::string centre = set("Centre", coordinates<dim>({{0.5, 0.5, 0.5}})) + set("Radius", "0.4");
+  const auto        count  = [](const auto &is_inside) {
+    unsigned int       n      = 0;
+    const unsigned int n_axis = 26; // 0.8 * 4 / 0.125 = 25.6 points, rounded to fill the length
+    for (unsigned int i = 0; i < (dim == 2 ? n_axis * n_axis : n_axis * n_axis * n_axis); ++i)
+    {
+      Tensor<1, dim> r;
+      for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n_axis)
+        r[d] = 0.8 * ((rest % n_axis + 0.5) / n_axis - 0.5);
+      n += is_inside(r);
+    }
+    return n;
+  };
+  const std::string dense = set("Particles per cell and direction", "4");
+  {
+    Setup<dim> setup(text(set("Shape", "ball") + centre + dense));
+    check_true("ball: count", setup.particles.n_global == count([](const auto &r) { return r.norm() < 0.4; }));
+    const double volume = dim == 2 ? numbers::PI * 0.16 : 4. / 3 * numbers::PI * 0.064;
+    check("ball: volume", total(setup, setup.particles.volume) / volume - 1, 0.02);
+  }
+  for (unsigned int axis = 0; axis < dim; ++axis)
+  {
+    std::array<double, 3> base = {{0.5, 0.5, 0.5}};
+    base[axis]                 = 0.1;
+    Setup<dim> setup(text(set("Shape", "cylinder") + set("Centre", coordinates<dim>(base)) + set("Radius", "0.4") +
+                          set("Height", "0.8") + set("Axis", std::string(1, "xyz"[axis])) + dense));
+    const auto is_inside = [axis](Tensor<1, dim> r) {
+      r[axis] = 0;
+      return r.norm() < 0.4;
+    };
+    check_true("cylinder: count, axis " + std::to_string(axis), setup.particles.n_global == count(is_inside));
+  }
+}
+
+/** Points and volumes of a file; two bodies have consecutive ids. */
+template <int dim>
+void point_file()
+{
+  const std::string name =
+    "points_" + std::to_string(dim) + "_" + std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".txt";
+  const auto        write = [&](const std::string &content) { std::ofstream(name) << content; };
+  const std::string z     = dim == 3 ? " 0.3" : "";
+  write("# x y z volume\n0.1 0.2" + z + " 0.5\n\n0.9 0.8" + z + " 0.25 # a comment\n0.5 0.5" + z + " 1e-3\n");
+  const std::string body = set("Shape", "points") + set("File", name);
+  Setup<dim>        setup(text(body));
+  check_true("ids", has_ids(setup, 3));
+  check("volume", total(setup, setup.particles.volume) - 0.751, 1e-15);
+  double error = 0;
+  for (unsigned int p = 0; p < setup.particles.size(); ++p)
+  {
+    const unsigned int i = setup.particles.id[p];
+    raise(error, setup.position(p)[0] - (i == 0 ? 0.1 : i == 1 ? 0.9 : 0.5));
+    raise(error, setup.position(p)[1] - (i == 0 ? 0.2 : i == 1 ? 0.8 : 0.5));
+  }
+  check("positions", error, 0.);
+
+  const auto error_in = [&](const std::string &what, const std::string &content, const std::string &message) {
+    write(content);
+    check_error<InputError>(what, {message}, [&] { Setup<dim> s(text(body)); });
+  };
+  error_in("short line", "0.1 0.2" + z + " 0.5\n0.1 0.2\n", name + ":2: expected " + std::to_string(dim + 1));
+  error_in("no number", "0.1 abc" + z + " 0.5\n", name + ":1: 'abc' is not a finite number");
+  error_in("not a number", "0.1 nan" + z + " 0.5\n", name + ":1: 'nan' is not a finite number");
+  error_in("no volume", "0.1 0.2" + z + " 0\n", "volume must be positive");
+  error_in("no points", "# nothing\n", "contains no points");
+  error_in("point outside", "0.1 0.2" + z + " 0.5\n1.5 0.2" + z + " 0.5\n", "outside the grid");
+  error_in("point on the upper face", "0.1 0.2" + z + " 0.5\n1 0.2" + z + " 0.5\n", "outside the grid");
+  std::remove(name.c_str());
+  check_error<EntryError>("missing file", {"/Bodies/body: File", "cannot read", name},
+                          [&] { Setup<dim> s(text(body)); });
+}
+
+template <int dim>
+void initial_state()
+{
+  const std::string velocity = dim == 2 ? "x + 2*y; 3*x*y" : "x + 2*y; 3*x*y; z";
+  const std::string body     = box<dim>(0, 1) + set("Velocity", velocity) +
+                           set("Velocity gradient", dim == 2 ? "1, 2, 3, 4" : "1, 2, 3, 4, 5, 6, 7, 8, 9");
+  double error = 0;
+  {
+    Setup<dim> setup(text(body + set("Initial stress", "uniform") + set("Stress", "1, 2, 3, 4, 5, 6")));
+    auto      &set = setup.particles;
+    for (unsigned int p = 0; p < set.size(); ++p)
+    {
+      const auto x = setup.position(p);
+      raise(error, set.component(set.velocity, 0)[p] - x[0] - 2 * x[1]);
+      raise(error, set.component(set.velocity, 1)[p] - 3 * x[0] * x[1]);
+      for (unsigned int c = 0; c < dim * dim; ++c)
+      {
+        raise(error, set.component(set.grad_v, c)[p] - (c + 1));
+        raise(error, set.component(set.F, c)[p] - (c % (dim + 1) == 0));
+      }
+      for (unsigned int d = 0; d < dim; ++d)
+        raise(error, set.component(set.initial_position, d)[p] - x[d]);
+      for (unsigned int c = 0; c < set.n_stress; ++c)
+        raise(error, set.component(set.stress, c)[p] - (c + 1));
+    }
+    check("velocity, gradients, uniform stress", error, 1e-14);
+  }
+  for (const double K0 : {-1., 0.7})
+  {
+    const unsigned int up = dim - 1;
+    Setup<dim>         setup(text(box<dim>(0, 1) + set("Initial stress", "geostatic") + set("Unit weight", "20") +
+                                  set("Surface level", "0.9") + (K0 < 0 ? "" : set("Rest stress ratio", "0.7"))));
+    auto              &set = setup.particles;
+    error                  = 0;
+    for (unsigned int p = 0; p < set.size(); ++p)
+    {
+      const double vertical = -20 * std::max(0., 0.9 - setup.position(p)[up]);
+      const double ratio    = K0 < 0 ? 0.2 / 0.8 : K0;
+      for (unsigned int c = 0; c < set.n_stress; ++c)
+        raise(error, set.component(set.stress, c)[p] - (c == up ? vertical : c < 3 ? ratio * vertical : 0.));
+    }
+    check("geostatic, K0 = " + std::to_string(K0), error, 1e-13);
+  }
+}
+
+template <int dim>
+void body_errors()
+{
+  const auto error = [](const std::string &name, const std::string &body, const std::string &entry,
+                        const std::string &message) {
+    check_error<EntryError>(name, {"/Bodies/body: " + entry, message}, [&] { Setup<dim> s(text(body)); });
+  };
+  error("empty box", box<dim>(0.5, 0.5), "Upper corner", "the body is empty");
+  error("negative radius", set("Shape", "ball") + set("Radius", "-1"), "Radius", "the body is empty");
+  error("outside the grid", box<dim>(2, 3), "Shape", "outside the grid");
+  error("partly outside the grid", box<dim>(0.5, 1.25), "Shape", "outside the grid");
+  error("lattice shifted out of the grid", box<dim>(0, 1) + set("Lattice offset", coordinates<dim>({{0.75, 0, 0}})),
+        "Shape", "outside the grid");
+  error("ball between the points",
+        set("Shape", "ball") + set("Radius", "1e-9") + set("Centre", coordinates<dim>({{0.5, 0.5, 0.5}})) +
+          set("Particles per cell and direction", "1") + set("Lattice offset", coordinates<dim>({{1, 1, 1}})),
+        "Shape", "the body is empty");
+  error("two components short", box<dim>(0, 1) + set("Velocity gradient", "1, 2"), "Velocity gradient", "numbers");
+  error("velocity without value", box<dim>(0, 1) + set("Velocity", dim == 2 ? "1/0*x; 0" : "1/0*x; 0; 0"), "Velocity",
+        "no finite value");
+  error("no unit weight", box<dim>(0, 1) + set("Initial stress", "geostatic"), "Unit weight", "must be positive");
+}
+
+#define INSTANTIATE(name)                                                                                              \
+  template void name<2>();                                                                                             \
+  template void name<3>();
+INSTANTIATE(lattice)
+INSTANTIATE(round_bodies)
+INSTANTIATE(point_file)
+INSTANTIATE(initial_state)
+INSTANTIATE(body_errors)

@@ -1,0 +1,34 @@
+#include "../check.h"
+
+#define DECLARE(name)                                                                                                  \
+  template <int dim>                                                                                                   \
+  void name();
+DECLARE(lattice)
+DECLARE(round_bodies)
+DECLARE(point_file)
+DECLARE(initial_state)
+DECLARE(body_errors)
+DECLARE(synchronise)
+DECLARE(drift)
+DECLARE(outside)
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"lattice 2D", lattice<2>},
+                    {"lattice 3D", lattice<3>},
+                    {"round bodies 2D", round_bodies<2>},
+                    {"round bodies 3D", round_bodies<3>},
+                    {"point file 2D", point_file<2>},
+                    {"point file 3D", point_file<3>},
+                    {"initial state 2D", initial_state<2>},
+                    {"initial state 3D", initial_state<3>},
+                    {"errors 2D", body_errors<2>},
+                    {"errors 3D", body_errors<3>},
+                    {"synchronise 2D", synchronise<2>},
+                    {"synchronise 3D", synchronise<3>},
+                    {"drift 2D", drift<2>},
+                    {"drift 3D", drift<3>},
+                    {"outside 2D", outside<2>},
+                    {"outside 3D", outside<3>}});
+}

@@ -1,0 +1,219 @@
+#pragma once
+
+#include <talus/boundary/condition.h>
+#include <talus/core/parameters.h>
+#include <talus/grid/grid.h>
+#include <talus/kernels/kernel.h>
+#include <talus/particles/lattice_shape.h>
+#include <talus/particles/particles.h>
+#include <talus/transfer/transfer.h>
+
+#include "check.h"
+
+#include <sstream>
+
+/** What a step needs, built from the text of a parameter file; for the tests of several layers. */
+namespace Test
+{
+  using namespace Talus;
+
+  /** The first `dim` of the numbers as a list in a parameter file. */
+  template <int dim>
+  std::string coordinates(const std::array<double, 3> &numbers, const std::string &separator = ", ")
+  {
+    std::ostringstream text;
+    text << std::setprecision(17);
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d > 0 ? separator : "") << numbers[d];
+    return text.str();
+  }
+
+  inline std::string section(const std::string &name, const std::string &content)
+  {
+    return "subsection " + name + "\n" + content + "\nend\n";
+  }
+
+  inline std::string set(const std::string &entry, const std::string &value)
+  {
+    return "set " + entry + " = " + value + "\n";
+  }
+
+  /** A box of `cells` cells with its lower corner off the origin and a spacing of its own in each direction. */
+  template <int dim>
+  std::string skewed_grid(const std::array<int, 3> &cells)
+  {
+    const std::array<double, 3> lower = {{-0.3, 0.7, 0.2}}, h = {{0.1, 0.08, 0.125}};
+    std::array<double, 3>       upper;
+    for (unsigned int d = 0; d < 3; ++d)
+      upper[d] = lower[d] + cells[d] * h[d];
+    return section("Grid", set("Lower corner", coordinates<dim>(lower)) + set("Upper corner", coordinates<dim>(upper)) +
+                             set("Cells", coordinates<dim>({{1. * cells[0], 1. * cells[1], 1. * cells[2]}})));
+  }
+
+  inline std::string kernel_text(const std::string &kernel, const std::string &treatment)
+  {
+    return section("Kernel", set("Type", kernel) + set("Boundary treatment", treatment));
+  }
+
+  inline std::string transfer_text(const std::string &transfer, const std::string &more = "")
+  {
+    return section("Transfer", set("Type", transfer) + more);
+  }
+
+  /** One body "body" of one material "rubber". */
+  inline std::string body_text(const std::string &content)
+  {
+    const std::string material = set("Density", "3") + set("Young's modulus", "7") + set("Poisson's ratio", "0.2");
+    return section("Materials", set("Names", "rubber") + section("rubber", material)) +
+           section("Bodies", set("Names", "body") + section("body", content));
+  }
+
+  /** A condition "walls" on all faces. */
+  template <int dim>
+  std::string walls_text(const std::string &type)
+  {
+    if (type == "free")
+      return "";
+    return section(
+      "Conditions",
+      set("Names", "walls") +
+        section("walls", set("Type", type) + set("Boundary ids", dim == 2 ? "0, 1, 2, 3" : "0, 1, 2, 3, 4, 5")));
+  }
+
+  template <int dim>
+  class Setup
+  {
+  public:
+    explicit Setup(const std::string &text) :
+      parameters(Parameters::from_text(text)), grid("/Grid", MPI_COMM_WORLD),
+      kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "")),
+      transfer(parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", ""))
+    {
+      kernel->attach(grid.lattice, parameters.make<Treatment<dim>>("/Kernel", "Boundary treatment", "WLS", ""));
+      const auto material_names = parameters.names("/Materials", "");
+      for (const auto &name : material_names)
+        materials.push_back(parameters.make<Material>("/Materials/" + name, "Type", "linear elastic", ""));
+      for (const auto &name : parameters.names("/Bodies", ""))
+        bodies.push_back(std::make_unique<Body<dim>>(parameters, name, material_names));
+      for (const auto &name : parameters.names("/Conditions", ""))
+        boundary.conditions.push_back(parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", ""));
+      transfer->add_fields(particles);
+      parameters.parse();
+      accelerate(dim == 2 ? "0; 0" : "0; 0; 0");
+      create();
+    }
+
+    void accelerate(const std::string &text) { acceleration.initialize(text, "/", "Body force"); }
+
+    /** The first half of a step: fields of the nodes before their velocity is known. */
+    void scatter(const double time = 0)
+    {
+      grid.clear();
+      transfer->particle_to_grid(particles, *kernel, acceleration, time, grid);
+    }
+
+    /** Transfers both ways; with dt = 0 particles stay where they are and forces do nothing. */
+    void step(const double dt, const double time = 0)
+    {
+      scatter(time);
+      grid.fields.add_copies_to_owners();
+      grid.update_velocity(dt);
+      boundary.apply(time + dt, dt > 0 ? dt : 1., grid);
+      grid.fields.update_copies();
+      transfer->grid_to_particle(grid, *kernel, dt, particles);
+    }
+
+    /** Sets a field of all particles by function(p, component). */
+    template <class Function>
+    void fill(const unsigned int field, const Function &function)
+    {
+      for (unsigned int c = 0; c < particles.fields[field].n_components; ++c)
+        for (unsigned int p = 0; p < particles.size(); ++p)
+          particles.component(field, c)[p] = function(p, c);
+    }
+
+    /** Sets a field to numbers in [-1, 1) that depend on the particle's id alone. */
+    void randomize(const unsigned int field, const unsigned int seed)
+    {
+      fill(field, [&](const unsigned int p, const unsigned int c) { return hashed_jitter(seed, particles.id[p], c); });
+    }
+
+    dealii::Point<dim> position(const unsigned int p) const
+    {
+      dealii::Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = particles.component(particles.position, d)[p];
+      return x;
+    }
+
+    /** The stencil of one particle. */
+    Stencil<dim> stencil(const unsigned int p) const
+    {
+      Stencil<dim> result;
+      kernel->evaluate(particles, p, p + 1, &result);
+      return result;
+    }
+
+    Parameters                              parameters;
+    Grid<dim>                               grid;
+    std::unique_ptr<Kernel<dim>>            kernel;
+    std::unique_ptr<Transfer<dim>>          transfer;
+    std::vector<std::unique_ptr<Material>>  materials;
+    std::vector<std::unique_ptr<Body<dim>>> bodies;
+    Particles<dim>                          particles;
+    Boundary<dim>                           boundary;
+    ParsedVector<dim>                       acceleration;
+
+  private:
+    void create()
+    {
+      for (auto &body : bodies)
+        body->shape->create(grid.lattice.h);
+      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
+      particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
+      if (!bodies.empty())
+        particles.create(grid, bodies, materials);
+      transfer->initialize(*kernel, particles);
+      for (auto &condition : boundary.conditions)
+        condition->attach(grid);
+    }
+  };
+
+  inline double sum(const double value) { return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD); }
+  inline double max(const double value) { return dealii::Utilities::MPI::max(value, MPI_COMM_WORLD); }
+
+  /** Keeps the greatest magnitude; NaN stays. */
+  inline void raise(double &greatest, const double value)
+  {
+    if (!(std::abs(value) <= greatest) && !std::isnan(greatest))
+      greatest = std::abs(value);
+  }
+
+  /** Holds when `action` throws an Error (InputError, EntryError, RunError) whose message holds all `parts`. */
+  template <class Error, class Action>
+  void check_error(const std::string &name, const std::vector<std::string> &parts, const Action &action)
+  {
+    std::string message = "no error was thrown";
+    bool        holds   = false;
+    try
+    {
+      action();
+    }
+    catch (const Error &error)
+    {
+      message = error.message;
+      if constexpr (std::is_same<Error, EntryError>::value)
+        message = error.section + ": " + error.entry + ": " + message;
+      holds = true;
+      for (const auto &part : parts)
+        holds = holds && message.find(part) != std::string::npos;
+    }
+    catch (const std::exception &error)
+    {
+      message = error.what();
+    }
+    if (!holds)
+      std::cout << "    got: " << message << std::endl;
+    check_true(name, holds);
+  }
+} // namespace Test

@@ -1,0 +1,37 @@
+#include "../check.h"
+
+#define DECLARE(name)                                                                                                  \
+  template <int dim>                                                                                                   \
+  void name();
+DECLARE(mass_and_momentum)
+DECLARE(angular_momentum_of_apic)
+DECLARE(affine_in_the_interior)
+DECLARE(affine_at_walls)
+DECLARE(affine_drive)
+DECLARE(flip_keeps_velocity)
+DECLARE(flip_after_condition)
+DECLARE(motion)
+DECLARE(nodal_force)
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"mass and momentum 2D", mass_and_momentum<2>},
+                    {"mass and momentum 3D", mass_and_momentum<3>},
+                    {"angular momentum of APIC 2D", angular_momentum_of_apic<2>},
+                    {"angular momentum of APIC 3D", angular_momentum_of_apic<3>},
+                    {"affine in the interior 2D", affine_in_the_interior<2>},
+                    {"affine in the interior 3D", affine_in_the_interior<3>},
+                    {"affine at walls 2D", affine_at_walls<2>},
+                    {"affine at walls 3D", affine_at_walls<3>},
+                    {"affine drive 2D", affine_drive<2>},
+                    {"affine drive 3D", affine_drive<3>},
+                    {"FLIP keeps velocity 2D", flip_keeps_velocity<2>},
+                    {"FLIP keeps velocity 3D", flip_keeps_velocity<3>},
+                    {"FLIP after condition 2D", flip_after_condition<2>},
+                    {"FLIP after condition 3D", flip_after_condition<3>},
+                    {"motion 2D", motion<2>},
+                    {"motion 3D", motion<3>},
+                    {"nodal force 2D", nodal_force<2>},
+                    {"nodal force 3D", nodal_force<3>}});
+}
