@@ -34,7 +34,10 @@ namespace Talus
     std::string       text = reason.str();
     if (const auto position = text.find(said); position != std::string::npos)
       text = text.substr(position + said.size());
-    return Utilities::trim(std::regex_replace(text, std::regex("\\s+"), " "));
+    text = Utilities::trim(std::regex_replace(text, std::regex("\\s+"), " "));
+    while (!text.empty() && text.back() == '.')
+      text.pop_back();
+    return text;
   }
 
   template <int dim>

@@ -280,8 +280,6 @@ namespace Talus
     Parameters               declared;
     std::vector<std::string> path, siblings, known_sections;
     declared.scan(in, "declared", path);
-    // Entering it to set the entry has made the section itself known.
-    declared.sections.erase(parent(key));
     for (const auto &other : declared.settings)
       if (parent(other.first) == parent(key))
         siblings.push_back(leaf(other.first));

@@ -37,7 +37,8 @@ namespace Talus
         }
         if (points.empty())
           throw EntryError(this->get_section_name(), "File",
-                           "the body is empty: '" + file_name + "' contains no points.");
+                           "the body is empty: '" + file_name +
+                             "' contains no points. Give one in each line: x y [z] volume.");
         std::vector<std::pair<Point<dim>, unsigned int>> entries;
         for (unsigned int i = 0; i < points.size(); ++i)
           entries.emplace_back(points[i], i);
