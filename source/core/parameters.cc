@@ -151,6 +151,7 @@ namespace Talus
   void Parameters::scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path)
   {
     const std::size_t        depth = path.size();
+    open_files.push_back(file_name);
     std::vector<std::string> opened_at;
     std::string              line, next, rest;
     for (unsigned int number = 1; std::getline(in, line); ++number)
@@ -184,11 +185,14 @@ namespace Talus
       }
       else if (starts_with(line, "include", rest))
       {
+        AssertThrow(!rest.empty(), InputError(origin + ": 'include' needs the name of a file."));
         const auto        slash = file_name.rfind('/');
         const std::string included =
           rest.front() == '/' || slash == std::string::npos ? rest : file_name.substr(0, slash + 1) + rest;
         std::ifstream file(included);
         AssertThrow(file, InputError(origin + ": cannot read the included file '" + included + "'."));
+        AssertThrow(std::find(open_files.begin(), open_files.end(), included) == open_files.end(),
+                    InputError(origin + ": '" + included + "' includes itself, directly or through another file."));
         scan(file, included, path);
       }
       else if (starts_with(line, "set", rest))
@@ -209,6 +213,7 @@ namespace Talus
     }
     AssertThrow(path.size() == depth, InputError(opened_at.back() + ": subsection '" + path.back() +
                                                  "' is never closed. Add 'end' where it stops."));
+    open_files.pop_back();
   }
 
   void Parameters::add_override(const std::string &text)

@@ -85,7 +85,7 @@ void value_errors()
 {
   error("misspelt choice in an entry", {"text:3: ", "'Colour'", "'rde' is not a valid value", "red", "green"},
         spring("set Colour = rde\n"));
-  error("above the bound", {"text:3: ", "'Stiffness'", "'101' is not a valid value", "0...100"},
+  error("above the bound", {"text:3: ", "'Stiffness'", "'101' is not a valid value", "between 0 and 100"},
         spring("set Stiffness = 101\n"));
   error("below the bound", {"text:3: ", "'-1' is not a valid value"}, spring("set Stiffness = -1\n"));
   error("fraction for a whole number", {"text:3: ", "'2.5' is not a valid value"}, spring("set Turns = 2.5\n"));

@@ -216,14 +216,14 @@ void body_errors()
   };
   error("empty box", box<dim>(0.5, 0.5), "Upper corner", "the body is empty");
   error("negative radius", set("Shape", "ball") + set("Radius", "-1"), "Radius", "the body is empty");
-  error("outside the grid", box<dim>(2, 3), "Shape", "outside the grid");
-  error("partly outside the grid", box<dim>(0.5, 1.25), "Shape", "outside the grid");
+  error("outside the grid", box<dim>(2, 3), "Lower corner", "outside the grid");
+  error("partly outside the grid", box<dim>(0.5, 1.25), "Lower corner", "outside the grid");
   error("lattice shifted out of the grid", box<dim>(0, 1) + set("Lattice offset", coordinates<dim>({{0.75, 0, 0}})),
-        "Shape", "outside the grid");
+        "Lower corner", "outside the grid");
   error("ball between the points",
         set("Shape", "ball") + set("Radius", "1e-9") + set("Centre", coordinates<dim>({{0.5, 0.5, 0.5}})) +
           set("Particles per cell and direction", "1") + set("Lattice offset", coordinates<dim>({{1, 1, 1}})),
-        "Shape", "the body is empty");
+        "Centre", "the body is empty");
   error("two components short", box<dim>(0, 1) + set("Velocity gradient", "1, 2"), "Velocity gradient", "numbers");
   error("velocity without value", box<dim>(0, 1) + set("Velocity", dim == 2 ? "1/0*x; 0" : "1/0*x; 0; 0"), "Velocity",
         "no finite value");

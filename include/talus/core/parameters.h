@@ -70,6 +70,7 @@ namespace Talus
 
     std::map<std::string, Setting>     settings; // by "Section/Subsection/Entry"
     std::map<std::string, std::string> sections; // where each was opened
+    std::vector<std::string>           open_files; // being scanned, each included by the one before
     std::string                        file_name;
   };
 
