@@ -14,7 +14,8 @@ namespace Talus
 
   namespace
   {
-    bool is_stdout_a_terminal() { return isatty(STDOUT_FILENO) == 1; }
+    // mpirun gives its ranks a pseudo terminal to write to even in a batch job, but none to read from.
+    bool is_stdout_a_terminal() { return isatty(STDOUT_FILENO) == 1 && isatty(STDIN_FILENO) == 1; }
 
     /** Hours, minutes and seconds: 1:02:03. */
     std::string clock_time(const double seconds)
