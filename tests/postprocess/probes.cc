@@ -34,9 +34,14 @@ namespace
       particles.synchronise();
     }
     run.probes.write(0.5, particles);
+    // All but two at one place; 16 and 17 stand before 2 in the first cell's order.
+    for (unsigned int p = 0; p < particles.size(); ++p)
+      for (unsigned int c = 0; c < dim; ++c)
+        particles.component(particles.position, c)[p] = particles.id[p] < 2 ? 0. : 1.;
+    run.probes.write(1., particles);
 
     const auto table = lines(base + "/probes.csv");
-    check_true("a row for each time" + d, table.size() == 3);
+    check_true("a row for each time" + d, table.size() == 4);
     check_true("names" + d,
                table[0].find("time [time],tip_position_x [length],tip_position_y [length],") == 0 &&
                  table[0].find(",tip_stress_xx [stress]") != std::string::npos &&
@@ -54,6 +59,7 @@ namespace
     // 3.125 + 0.75 = 3.875 and 4.125 are equally far: the lower id, three points back, is taken.
     check("later another one" + d, second[1 + n + 1] - 3.875, 1e-14);
     check("with its stress" + d, second[1 + n + 1 + 2 * dim] - (last - 3), 1e-14);
+    check("of many the lowest id" + d, read_numbers(table[3])[1 + n + 1 + 2 * dim] - 2, 1e-14);
   }
 } // namespace
 
