@@ -23,6 +23,7 @@ namespace Talus
       throw EntryError(get_section_name(), "Poisson's ratio",
                        "it must lie between -1 and 0.5, both excluded: at 0.5 the bulk modulus is infinite. "
                        "Use 0.49 for a nearly incompressible material.");
+    pressure_wave_modulus = bulk_modulus() + 4. / 3. * shear_modulus();
   }
 
   void LinearElastic::update(const MaterialRange &range) const
@@ -37,7 +38,7 @@ namespace Talus
 
   double LinearElastic::wave_speed(const double rho) const
   {
-    return std::sqrt((bulk_modulus() + 4. / 3. * shear_modulus()) / rho); // Eq. (34)
+    return std::sqrt(pressure_wave_modulus / rho); // Eq. (34)
   }
 
   double LinearElastic::strain_energy_density(const SymmetricTensor<2, 3> &stress) const

@@ -83,9 +83,13 @@ namespace Talus
       axis.has_upper_boundary = base + static_cast<int>(Function::n) > last;
       axis.boundary_scale     = Function::boundary_scale;
 
-      // Round-off must not make a node at the very end of the support count as missing.
-      const double reach = function.support() - 1e-12;
-      axis.is_truncated  = coordinate + 1 < reach || last + 1 - coordinate < reach;
+      axis.is_truncated = false;
+      if (axis.has_lower_boundary || axis.has_upper_boundary)
+      {
+        // Round-off must not make a node at the very end of the support count as missing.
+        const double reach = function.support() - 1e-12;
+        axis.is_truncated  = coordinate + 1 < reach || last + 1 - coordinate < reach;
+      }
       return base;
     }
 

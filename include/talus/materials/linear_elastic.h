@@ -29,5 +29,7 @@ namespace Talus
   private:
     double youngs_modulus = 1e6; // [stress]
     double poisson_ratio  = 0.3; // [1]
+
+    double pressure_wave_modulus = 0; // K + 4 G / 3 [stress]
   };
 } // namespace Talus
