@@ -150,7 +150,7 @@ namespace Talus
 
   void Parameters::scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path)
   {
-    const std::size_t        depth = path.size();
+    const std::size_t depth = path.size();
     open_files.push_back(file_name);
     std::vector<std::string> opened_at;
     std::string              line, next, rest;

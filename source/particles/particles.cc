@@ -110,7 +110,6 @@ namespace Talus
         InputError("The bodies have more particles than this deal.II can number. Use one with 64-bit indices."));
       body_begin.push_back(body.first_id);
       body_material.push_back(body.material);
-      body_names.push_back(body.name);
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {

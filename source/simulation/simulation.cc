@@ -168,7 +168,9 @@ namespace Talus
   void Simulation<dim>::finish()
   {
     progress->finish(time, step);
-    if (comparison)
+    if (comparison && time < end_time)
+      say("\nNo comparison with the finite element reference: the run ended before its end time.\n");
+    else if (comparison)
     {
       TimerOutput::Scope scope(timer, "finite element reference");
       comparison->finish(end_time, materials, boundary.names, particles);

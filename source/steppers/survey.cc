@@ -11,25 +11,6 @@ namespace Talus
 
   namespace
   {
-    template <int dim>
-    Tensor<2, dim> matrix(const WorkingSet<dim> &particles, const unsigned int field, const unsigned int p)
-    {
-      Tensor<2, dim> value;
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        value[c / dim][c % dim] = particles.component(field, c)[p];
-      return value;
-    }
-
-    /** The particle's position as "(x, y)". */
-    template <int dim>
-    std::string place(const WorkingSet<dim> &particles, const unsigned int p)
-    {
-      Tensor<1, dim> x;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = particles.component(particles.position, d)[p];
-      return to_text(x);
-    }
-
     /** A number that is finite only if velocity and stress of the particle are. */
     template <int dim>
     double magnitude(const WorkingSet<dim> &particles, const unsigned int p)
@@ -78,8 +59,8 @@ namespace Talus
         sums[1] += 0.5 * mass[p] * v_p.norm_square();
         sums[2] += mass[p] * (b * v_p);
         is_valid = is_valid && is_finite(magnitude(particles, p)) &&
-                   is_valid_volume_ratio(determinant(matrix(particles, particles.F, p))) &&
-                   is_valid_increment(dt * matrix(particles, particles.grad_v, p).norm());
+                   is_valid_volume_ratio(determinant(particles.matrix(particles.F, p))) &&
+                   is_valid_increment(dt * particles.matrix(particles.grad_v, p).norm());
       }
     maxima[1] = particles.needs_synchronise;
     maxima[2] = !is_valid;
@@ -120,8 +101,8 @@ namespace Talus
     Report first(std::numeric_limits<types::particle_index>::max(), "");
     for (unsigned int p = 0; p < particles.size(); ++p)
     {
-      const double       J          = determinant(matrix(particles, particles.F, p));
-      const double       increment  = dt * matrix(particles, particles.grad_v, p).norm();
+      const double       J          = determinant(particles.matrix(particles.F, p));
+      const double       increment  = dt * particles.matrix(particles.grad_v, p).norm();
       bool               is_outside = false;
       std::ostringstream what;
       for (unsigned int d = 0; d < dim; ++d)
@@ -140,7 +121,8 @@ namespace Talus
         continue;
       if (particles.id[p] >= first.first)
         continue;
-      what << ", at " << place(particles, p) << " in step " << step << ", t = " << time << ", dt = " << dt << ". "
+      what << ", at " << to_text(particles.vector(particles.position, p)) << " in step " << step << ", t = " << time
+           << ", dt = " << dt << ". "
            << (is_outside ? "Enlarge the grid, or lower the Courant number." :
                             "Lower the Courant number, or correct the kernels near the boundary.");
       first = {particles.id[p], what.str()};
@@ -166,7 +148,8 @@ namespace Talus
         if (squares <= fastest.first)
           continue;
         std::ostringstream text;
-        text << "particle " << particles.id[p] << " at " << place(particles, p) << " with speed " << std::sqrt(squares);
+        text << "particle " << particles.id[p] << " at " << to_text(particles.vector(particles.position, p))
+             << " with speed " << std::sqrt(squares);
         fastest = {squares, text.str()};
       }
       for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, fastest))

@@ -26,7 +26,7 @@ namespace Talus
       /** B = grad v D: the scatter of the first step then carries the initial velocity gradient. */
       void initialize(WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &stencil) const
       {
-        const Tensor<2, dim> grad_v = this->matrix(particles, particles.grad_v, p);
+        const Tensor<2, dim> grad_v = particles.matrix(particles.grad_v, p);
         store(particles, p, grad_v * Tensor<2, dim>(second_moment(stencil)));
       }
 
@@ -49,7 +49,7 @@ namespace Talus
           return B * Tensor<2, dim>(invert(D));
 
         // A direction in which all nodes lie in the particle's plane, at a wall, takes C = grad v.
-        const Tensor<2, dim> grad_v = this->matrix(particles, particles.grad_v, p);
+        const Tensor<2, dim> grad_v = particles.matrix(particles.grad_v, p);
         Tensor<2, dim>       C;
         for (const auto &[eigenvalue, e] : eigenvectors(D))
           C += outer_product(eigenvalue < smallest ? grad_v * e : B * e / eigenvalue, e);
@@ -64,7 +64,7 @@ namespace Talus
 
       Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const
       {
-        return this->matrix(particles, B, p);
+        return particles.matrix(B, p);
       }
 
     private:

@@ -11,7 +11,7 @@ namespace Talus
     {
       void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
       {
-        this->set_velocity(particles, p, this->velocity(particles, p) + sum.increment);
+        this->set_velocity(particles, p, particles.vector(particles.velocity, p) + sum.increment);
       }
     };
 
@@ -36,7 +36,7 @@ namespace Talus
       }
       void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
       {
-        const auto flip = this->velocity(particles, p) + sum.increment;
+        const auto flip = particles.vector(particles.velocity, p) + sum.increment;
         this->set_velocity(particles, p, flip_fraction * flip + (1 - flip_fraction) * sum.velocity);
       }
 

@@ -13,7 +13,7 @@ namespace Talus
 
       dealii::Tensor<2, dim> affine(const WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &) const
       {
-        return this->matrix(particles, particles.grad_v, p);
+        return particles.matrix(particles.grad_v, p);
       }
       void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
       {

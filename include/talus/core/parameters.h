@@ -68,8 +68,8 @@ namespace Talus
     [[noreturn]] void reject_unknown(const std::string &key, const Setting &setting) const;
     const Setting    *find(const std::string &section, const std::string &entry) const;
 
-    std::map<std::string, Setting>     settings; // by "Section/Subsection/Entry"
-    std::map<std::string, std::string> sections; // where each was opened
+    std::map<std::string, Setting>     settings;   // by "Section/Subsection/Entry"
+    std::map<std::string, std::string> sections;   // where each was opened
     std::vector<std::string>           open_files; // being scanned, each included by the one before
     std::string                        file_name;
   };

@@ -50,8 +50,7 @@ namespace Talus
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
     unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
 
-    std::uint64_t            n_global = 0;
-    std::vector<std::string> body_names;
+    std::uint64_t n_global = 0;
 
   private:
     void store(); // working set -> home

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/tensor.h>
 #include <deal.II/particles/particle.h>
 
 #include <array>
@@ -60,6 +61,24 @@ namespace Talus
       for (unsigned int c = 0; c < n; ++c)
         arrays[c] = component(field, c);
       return arrays;
+    }
+
+    /** A vector field of one particle. */
+    dealii::Tensor<1, dim> vector(const unsigned int field, const unsigned int p) const
+    {
+      dealii::Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = component(field, d)[p];
+      return value;
+    }
+
+    /** A tensor field of one particle that is stored row by row. */
+    dealii::Tensor<2, dim> matrix(const unsigned int field, const unsigned int p) const
+    {
+      dealii::Tensor<2, dim> value;
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        value[c / dim][c % dim] = component(field, c)[p];
+      return value;
     }
 
     // Fields that every run has; tensors row by row.

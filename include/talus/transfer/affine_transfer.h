@@ -195,20 +195,5 @@ namespace Talus
       for (unsigned int d = 0; d < dim; ++d)
         particles.component(particles.velocity, d)[p] = v[d];
     }
-    static dealii::Tensor<1, dim> velocity(const WorkingSet<dim> &particles, const unsigned int p)
-    {
-      dealii::Tensor<1, dim> v;
-      for (unsigned int d = 0; d < dim; ++d)
-        v[d] = particles.component(particles.velocity, d)[p];
-      return v;
-    }
-    static dealii::Tensor<2, dim> matrix(const WorkingSet<dim> &particles, const unsigned int field,
-                                         const unsigned int p)
-    {
-      dealii::Tensor<2, dim> value;
-      for (unsigned int c = 0; c < dim * dim; ++c)
-        value[c / dim][c % dim] = particles.component(field, c)[p];
-      return value;
-    }
   };
 } // namespace Talus
