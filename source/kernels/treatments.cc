@@ -35,9 +35,44 @@ namespace Talus
             adjust(axis, axis.end - 1, axis.end - 2);
         }
       }
+      void correct_factors(LatticeFactors<dim> &factors) const override
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          adjust(factors, d, 0., 1.);
+          adjust(factors, d, factors.last[d], factors.last[d] - 1);
+        }
+      }
       bool needs_boundary_scale() const override { return true; }
 
     private:
+      /** In the lanes whose stencil holds the boundary node. */
+      static void adjust(LatticeFactors<dim> &factors, const unsigned int d, const double boundary, const double next)
+      {
+        using Number       = typename LatticeFactors<dim>::Number;
+        const auto is_node = [&](const unsigned int k, const double node) {
+          return factors.first[d] + static_cast<double>(k) == Number(node);
+        };
+        Number weight = 1., derivative = 0.;
+        auto   is_there = Number(1.) < Number(0.);
+        for (unsigned int k = 0; k < factors.n; ++k)
+        {
+          const auto   is_boundary = is_node(k, boundary);
+          const Number scale       = select(is_boundary, Number(factors.boundary_scale), Number(1.));
+          factors.weight[d][k] *= scale;
+          factors.derivative[d][k] *= scale;
+          is_there = is_there | is_boundary;
+          weight -= select(is_node(k, next), Number(0.), factors.weight[d][k]);
+          derivative -= select(is_node(k, next), Number(0.), factors.derivative[d][k]);
+        }
+        for (unsigned int k = 0; k < factors.n; ++k)
+        {
+          const auto is_next       = is_there & is_node(k, next);
+          factors.weight[d][k]     = select(is_next, weight, factors.weight[d][k]);
+          factors.derivative[d][k] = select(is_next, derivative, factors.derivative[d][k]);
+        }
+      }
+
       static void adjust(Axis &axis, const unsigned int boundary, const unsigned int next)
       {
         axis.weight[boundary] *= axis.boundary_scale;
@@ -52,6 +87,42 @@ namespace Talus
           }
       }
     };
+
+    /**
+     * Sums over an axis that its least squares need. The weight of a node is a
+     * product, so the moment matrix of a batch of particles is made of these:
+     * with mean mu and variance of the offsets under w / m0,
+     * @f[ M^{-1} P = ( 1 - \sum_d \mu_d (o_d - \mu_d) / var_d ,\; (o_d - \mu_d) / var_d ) / \prod_d m0_d . @f]
+     */
+    template <int dim>
+    struct AxisMoments
+    {
+      using Number = typename LatticeFactors<dim>::Number;
+
+      AxisMoments(const LatticeFactors<dim> &factors, const unsigned int d)
+      {
+        for (unsigned int k = 0; k < factors.n; ++k)
+        {
+          const Number w = factors.weight[d][k], o = factors.offset[d][k];
+          sum += w;
+          mean += w * o;
+          variance += w * o * o;
+        }
+        mean /= sum;
+        variance = variance / sum - mean * mean;
+      }
+
+      Number sum = 0., mean = 0., variance = 0.;
+    };
+
+    template <int dim>
+    typename LatticeFactors<dim>::Mask is_any_truncated(const LatticeFactors<dim> &factors)
+    {
+      auto result = factors.is_truncated[0];
+      for (unsigned int d = 1; d < dim; ++d)
+        result = result | factors.is_truncated[d];
+      return result;
+    }
 
     /** Weighted least squares, Eqs. (53)-(63), where a node of the support is missing. */
     template <int dim>
@@ -79,6 +150,27 @@ namespace Talus
           for (unsigned int d = 0; d < dim; ++d)
             stencil.gradient[d][k] = C[d + 1] * inverse_h[d] * weight; // Eq. (62): C_2 + C_3 . offset
         }
+      }
+
+      void correct_factors(LatticeFactors<dim> &factors) const override
+      {
+        using Number = typename LatticeFactors<dim>::Number;
+        // One truncated axis changes the gradient along all of them.
+        const auto is_corrected =
+          this->is_everywhere() && factors.n > 2 ? Number(0.) == Number(0.) : is_any_truncated(factors);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const AxisMoments<dim> moments(factors, d);
+          for (unsigned int k = 0; k < factors.n; ++k)
+          {
+            const Number weight      = factors.weight[d][k] / moments.sum;
+            const Number derivative  = weight * (factors.offset[d][k] - moments.mean) / moments.variance;
+            factors.weight[d][k]     = select(is_corrected, weight, factors.weight[d][k]);
+            factors.derivative[d][k] = select(is_corrected, derivative, factors.derivative[d][k]);
+            factors.coupling[d][k]   = select(is_corrected, moments.mean * derivative, Number(0.));
+          }
+        }
+        factors.is_coupled = true;
       }
     };
 
@@ -117,6 +209,23 @@ namespace Talus
               axis.weight[k] *= (m2 - m1 * axis.offset[k]) / determinant;
             }
           }
+      }
+
+      void correct_factors(LatticeFactors<dim> &factors) const override
+      {
+        using Number = typename LatticeFactors<dim>::Number;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const AxisMoments<dim> moments(factors, d);
+          for (unsigned int k = 0; k < factors.n; ++k)
+          {
+            const Number weight     = factors.weight[d][k] / moments.sum;
+            const Number derivative = weight * (factors.offset[d][k] - moments.mean) / moments.variance;
+            factors.weight[d][k] =
+              select(factors.is_truncated[d], weight - moments.mean * derivative, factors.weight[d][k]);
+            factors.derivative[d][k] = select(factors.is_truncated[d], derivative, factors.derivative[d][k]);
+          }
+        }
       }
     };
 
@@ -173,6 +282,42 @@ namespace Talus
           }
           stencil.weight[k] *= P_a;
         }
+      }
+
+      void correct_factors(LatticeFactors<dim> &factors) const override
+      {
+        using Number            = typename LatticeFactors<dim>::Number;
+        const auto is_corrected = is_any_truncated(factors);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          // Derivatives of the moments along the axis; an offset's is -1.
+          const AxisMoments<dim> moments(factors, d);
+          Number                 dsum = 0., dfirst = 0., dsecond = 0.;
+          for (unsigned int k = 0; k < factors.n; ++k)
+          {
+            const Number dw = factors.derivative[d][k], o = factors.offset[d][k];
+            dsum += dw;
+            dfirst += dw * o - factors.weight[d][k];
+            dsecond += (dw * o - 2. * factors.weight[d][k]) * o;
+          }
+          const Number second    = moments.variance + moments.mean * moments.mean;
+          const Number dmean     = (dfirst - moments.mean * dsum) / moments.sum;
+          const Number dvariance = (dsecond - second * dsum) / moments.sum - 2. * moments.mean * dmean;
+          for (unsigned int k = 0; k < factors.n; ++k)
+          {
+            const Number weight   = factors.weight[d][k] / moments.sum;
+            const Number dweight  = (factors.derivative[d][k] - weight * dsum) / moments.sum;
+            const Number distance = factors.offset[d][k] - moments.mean;
+            const Number q        = moments.mean * distance / moments.variance; // u = w q
+            const Number dq       = (dmean * distance - moments.mean * (1. + dmean) - q * dvariance) / moments.variance;
+            factors.weight[d][k]  = select(is_corrected, weight, factors.weight[d][k]);
+            factors.coupling[d][k] = select(is_corrected, weight * q, Number(0.));
+            factors.cross[d][k]    = select(is_corrected, dweight, factors.derivative[d][k]);
+            factors.derivative[d][k] =
+              select(is_corrected, dweight - dweight * q - weight * dq, factors.derivative[d][k]);
+          }
+        }
+        factors.is_coupled = factors.has_cross = true;
       }
     };
 

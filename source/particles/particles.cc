@@ -1,3 +1,4 @@
+#include <talus/core/batch.h>
 #include <talus/core/exceptions.h>
 #include <talus/particles/particles.h>
 
@@ -145,32 +146,53 @@ namespace Talus
     this->grid    = &grid;
     coverage      = grid.lattice.coverage(std::max(n, 3u));
     stencil_shift = n < 3 ? 0.5 : shift;
+
+    knows_all_stencils = Utilities::MPI::n_mpi_processes(grid.communicator) == 1;
   }
 
   template <int dim>
-  void Particles<dim>::relocate()
+  void Particles<dim>::start_relocation()
   {
+    outside           = none;
+    needs_synchronise = false;
+  }
+
+  template <int dim>
+  void Particles<dim>::relocate(const unsigned int begin, const unsigned int end)
+  {
+    using Number        = Simd<native_width>;
     const auto &lattice = grid->lattice;
     const auto  x       = this->template components<dim>(this->position);
-    outside             = none;
-    needs_synchronise   = false;
-    for (unsigned int p = 0; p < this->size(); ++p)
-    {
-      typename Lattice<dim>::Index base;
-      bool                         is_inside = true;
+    bool        strays  = false;
+    for_each_batch(begin, end, [&](const auto batch) {
+      std::array<Number, dim> coordinate;
+      auto                    is_outside = Number(1.) < Number(0.);
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double coordinate = lattice.coordinate(x[d][p], d);
-        is_inside               = is_inside && lattice.is_inside(coordinate, d);
-        base[d]                 = is_inside ? static_cast<int>(std::floor(coordinate - stencil_shift)) : 0;
+        coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
+        is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
       }
-      if (!is_inside)
+      if (any(is_outside))
       {
-        outside = std::min(outside, p);
-        continue;
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (is_outside[l])
+            outside = std::min(outside, batch.p + l);
       }
-      needs_synchronise = needs_synchronise || !lattice.is_in_table(base) || !coverage[lattice.table_index(base)];
-    }
+      else if (!knows_all_stencils)
+      {
+        alignas(64) int base[dim][Number::n_lanes];
+        for (unsigned int d = 0; d < dim; ++d)
+          floor(coordinate[d] - Number(stencil_shift), base[d]);
+        for (unsigned int l = 0; l < batch.size(); ++l)
+        {
+          typename Lattice<dim>::Index index;
+          for (unsigned int d = 0; d < dim; ++d)
+            index[d] = base[d][l];
+          strays = strays || !lattice.is_in_table(index) || !coverage[lattice.table_index(index)];
+        }
+      }
+    });
+    needs_synchronise = needs_synchronise || strays;
   }
 
   template <int dim>

@@ -1,4 +1,5 @@
 #include <talus/core/reduction.h>
+#include <talus/particles/material_range.h>
 #include <talus/postprocess/energies.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -45,19 +46,19 @@ namespace Talus
     }
 
     template <int dim>
-    double strain_energy(const WorkingSet<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials)
+    double strain_energy(WorkingSet<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials)
     {
-      const auto stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-      const auto volume = particles.component(particles.volume, 0);
-      double     energy = 0;
-      for (unsigned int m = 0; m + 1 < particles.material_begin.size(); ++m)
-        for (unsigned int p = particles.material_begin[m]; p < particles.material_begin[m + 1]; ++p)
-        {
-          SymmetricTensor<2, 3> sigma;
-          for (unsigned int c = 0; c < particles.n_stress; ++c)
-            sigma.access_raw_entry(c) = stress[c][p];
-          energy += volume[p] * materials[m]->strain_energy_density(sigma);
-        }
+      const auto          volume = particles.component(particles.volume, 0);
+      std::vector<double> densities;
+      double              energy = 0;
+      for (unsigned int m = 0; m < materials.size(); ++m)
+      {
+        const MaterialRange range = material_range(particles, *materials[m], m, /* dt = */ 0.);
+        densities.resize(range.end - range.begin);
+        materials[m]->strain_energy_densities(range, densities.data());
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          energy += volume[p] * densities[p - range.begin];
+      }
       return energy;
     }
   } // namespace
@@ -80,7 +81,7 @@ namespace Talus
   }
 
   template <int dim>
-  Totals<dim> totals(const WorkingSet<dim> &particles, const Transfer<dim> &transfer,
+  Totals<dim> totals(WorkingSet<dim> &particles, const Transfer<dim> &transfer,
                      const std::vector<std::unique_ptr<Material>> &materials, MPI_Comm communicator)
   {
     const auto x      = particles.template components<dim>(particles.position);
@@ -116,8 +117,8 @@ namespace Talus
 
   template struct Totals<2>;
   template struct Totals<3>;
-  template Totals<2> totals(const WorkingSet<2> &, const Transfer<2> &, const std::vector<std::unique_ptr<Material>> &,
+  template Totals<2> totals(WorkingSet<2> &, const Transfer<2> &, const std::vector<std::unique_ptr<Material>> &,
                             MPI_Comm);
-  template Totals<3> totals(const WorkingSet<3> &, const Transfer<3> &, const std::vector<std::unique_ptr<Material>> &,
+  template Totals<3> totals(WorkingSet<3> &, const Transfer<3> &, const std::vector<std::unique_ptr<Material>> &,
                             MPI_Comm);
 } // namespace Talus

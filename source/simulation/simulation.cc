@@ -12,8 +12,10 @@ namespace Talus
 
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, MPI_Comm communicator) :
-    ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters),
-    timer(timing_table, TimerOutput::never, TimerOutput::wall_times), grid("/Grid", communicator),
+    ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters), step_timing(timing),
+    set_up_section(timing.add("set-up")), synchronise_section(timing.add("synchronise")),
+    output_section(timing.add("output")), comparison_section(timing.add("finite element reference")),
+    grid("/Grid", communicator),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -90,7 +92,7 @@ namespace Talus
   template <int dim>
   void Simulation<dim>::set_up()
   {
-    TimerOutput::Scope scope(timer, "set-up");
+    Timing::Scope scope(timing, set_up_section);
     for (auto &body : bodies)
       body->shape->create(grid.lattice.h);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
@@ -136,7 +138,7 @@ namespace Talus
   template <int dim>
   void Simulation<dim>::postprocess()
   {
-    TimerOutput::Scope scope(timer, "output");
+    Timing::Scope scope(timing, output_section);
     if (comparison && step > 0)
       comparison->accumulate(time, dt, end_time, now.reactions, particles);
     if (output.is_statistics_due(step) || is_finished())
@@ -172,7 +174,7 @@ namespace Talus
       say("\nNo comparison with the finite element reference: the run ended before its end time.\n");
     else if (comparison)
     {
-      TimerOutput::Scope scope(timer, "finite element reference");
+      Timing::Scope scope(timing, comparison_section);
       comparison->finish(end_time, materials, boundary.names, particles);
       std::ostringstream table;
       comparison->write(output.directory() + "/comparison.csv", table);
@@ -180,11 +182,10 @@ namespace Talus
     }
     if (output.is_due_at_end(step))
     {
-      TimerOutput::Scope scope(timer, "output");
+      Timing::Scope scope(timing, output_section);
       output.write(time, step, particles, grid);
     }
-    timer.print_summary();
-    say(timing_table.str());
+    say(timing.table());
   }
 
   template <int dim>
@@ -235,15 +236,13 @@ namespace Talus
       dt = end_time - time;
     if (now.needs_synchronise)
     {
-      TimerOutput::Scope scope(timer, "synchronise");
+      Timing::Scope scope(timing, synchronise_section);
       particles.synchronise();
     }
-    explicit_step(model, time, dt, timer);
+    now  = explicit_step(model, time, dt, step_timing);
     time = is_last ? end_time : time + dt;
     ++step;
 
-    TimerOutput::Scope scope(timer, "survey");
-    now = survey(model, time, dt);
     lost_momentum += now.lost_momentum;
     if (now.has_failed)
       report_failure(model, step, time, dt);

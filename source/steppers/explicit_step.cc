@@ -1,104 +1,107 @@
+#include <talus/particles/batch_access.h>
 #include <talus/steppers/explicit_step.h>
 
 namespace Talus
 {
   using namespace dealii;
 
+  StepTiming::StepTiming(Timing &timing) :
+    timing(timing), particle_to_grid(timing.add("particle to grid")), grid(timing.add("grid and conditions")),
+    grid_to_particle(timing.add("grid to particle")), stress(timing.add("stress")),
+    relocate(timing.add("relocate and survey"))
+  {
+  }
+
   template <int dim>
-  void explicit_step(Model<dim> &model, const double time, const double dt, TimerOutput &timer)
+  Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing)
   {
     auto &[grid, particles, kernel, transfer, boundary, materials, acceleration] = model;
     {
-      TimerOutput::Scope scope(timer, "particle to grid");
+      Timing::Scope scope(timing.timing, timing.particle_to_grid);
       grid.clear();
       transfer.particle_to_grid(particles, kernel, acceleration, time, grid);
     }
     {
-      TimerOutput::Scope scope(timer, "grid and conditions");
+      Timing::Scope scope(timing.timing, timing.grid);
       grid.fields.add_copies_to_owners();
       grid.update_velocity(dt);
       boundary.apply(time + dt, dt, grid);
       grid.fields.update_copies();
     }
+
+    // What follows concerns each particle alone: block by block, so that a block's fields stay in the cache.
+    auto ranges = material_ranges(particles, materials, dt);
+    for (auto &range : ranges)
+      range.is_plain = transfer.is_plain;
+    Surveyor<dim>          surveyor(model, ranges, time + dt, dt);
+    double                 displacement = 0;
+    constexpr unsigned int block        = dim == 2 ? 1024 : 512;
+    particles.start_relocation();
+    for (unsigned int begin = 0; begin < particles.size(); begin += block)
     {
-      TimerOutput::Scope scope(timer, "grid to particle");
-      transfer.grid_to_particle(grid, kernel, dt, particles);
+      const unsigned int end = std::min(begin + block, particles.size());
+      {
+        Timing::Scope scope(timing.timing, timing.grid_to_particle);
+        displacement = std::max(displacement, transfer.grid_to_particle(grid, kernel, dt, particles, begin, end));
+      }
+      {
+        Timing::Scope scope(timing.timing, timing.stress);
+        update_stress(particles, materials, ranges, begin, end);
+      }
+      {
+        Timing::Scope scope(timing.timing, timing.relocate);
+        particles.relocate(begin, end);
+        surveyor.look_at(begin, end);
+      }
     }
-    {
-      TimerOutput::Scope scope(timer, "stress");
-      update_stress(particles, materials, dt);
-    }
-    {
-      TimerOutput::Scope scope(timer, "relocate");
-      particles.relocate();
-    }
+    Timing::Scope scope(timing.timing, timing.relocate);
+    return surveyor.finish(displacement);
   }
 
   namespace
   {
     /** Eq. (27), and the volume by the same factor. */
     template <int dim>
-    void deform(Particles<dim> &particles, const double dt)
+    void deform(Particles<dim> &particles, const double dt, const unsigned int begin, const unsigned int end)
     {
       const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
       const auto F      = particles.template components<dim * dim>(particles.F);
       const auto volume = particles.component(particles.volume, 0);
-      for (unsigned int p = 0; p < particles.size(); ++p)
-      {
-        Tensor<2, dim> f = unit_symmetric_tensor<dim>(), F_p;
-        for (unsigned int c = 0; c < dim * dim; ++c)
-        {
-          f[c / dim][c % dim] += dt * grad_v[c][p];
-          F_p[c / dim][c % dim] = F[c][p];
-        }
-        F_p = f * F_p;
-        for (unsigned int c = 0; c < dim * dim; ++c)
-          F[c][p] = F_p[c / dim][c % dim];
-        volume[p] *= determinant(f);
-      }
+      for_each_batch(begin, end, [&](const auto batch) {
+        auto f = dt * load_matrix<dim>(batch, grad_v);
+        for (unsigned int d = 0; d < dim; ++d)
+          f[d][d] += 1.;
+        store_matrix(batch, F, f * load_matrix<dim>(batch, F));
+        batch.store(volume, batch.load(volume) * determinant(f));
+      });
     }
   } // namespace
 
   template <int dim>
   void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
-                     const double dt)
+                     const std::vector<MaterialRange> &ranges, const unsigned int begin, const unsigned int end)
   {
-    deform(particles, dt);
+    deform(particles, ranges[0].dt, begin, end);
     for (unsigned int m = 0; m < materials.size(); ++m)
-      materials[m]->update(material_range(particles, *materials[m], m, dt));
+    {
+      const MaterialRange range = intersection(ranges[m], begin, end);
+      if (range.begin < range.end)
+        materials[m]->update(range);
+    }
   }
 
   template <int dim>
-  MaterialRange material_range(Particles<dim> &particles, const Material &material, const unsigned int m,
-                               const double dt)
+  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
+                     const double dt)
   {
-    MaterialRange range;
-    const bool    has_particles = m + 1 < particles.material_begin.size();
-    range.begin                 = has_particles ? particles.material_begin[m] : 0;
-    range.end                   = has_particles ? particles.material_begin[m + 1] : 0;
-    range.dt                    = dt;
-    range.grad_v.fill(nullptr);
-    range.F.fill(nullptr);
-    range.stress.fill(nullptr);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-      {
-        range.grad_v[3 * i + j] = particles.component(particles.grad_v, dim * i + j);
-        range.F[3 * i + j]      = particles.component(particles.F, dim * i + j);
-      }
-    for (unsigned int c = 0; c < particles.n_stress; ++c)
-      range.stress[c] = particles.component(particles.stress, c);
-    range.mass   = particles.component(particles.mass, 0);
-    range.volume = particles.component(particles.volume, 0);
-    for (const auto &name : material.state_names())
-      range.state.push_back(particles.component(particles.add_field(name, 1), 0));
-    return range;
+    update_stress(particles, materials, material_ranges(particles, materials, dt), 0, particles.size());
   }
 
-#define INSTANTIATE(dim)                                                                                                \
-  template void          explicit_step(Model<dim> &, const double, const double, TimerOutput &);                        \
-  template void          update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &, const double); \
-  template MaterialRange material_range(Particles<dim> &, const Material &, const unsigned int, const double);
+#define INSTANTIATE(dim)                                                                                               \
+  template Survey<dim> explicit_step(Model<dim> &, const double, const double, const StepTiming &);                    \
+  template void        update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &,                 \
+                                     const std::vector<MaterialRange> &, const unsigned int, const unsigned int);      \
+  template void        update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,8 +1,11 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/reduction.h>
+#include <talus/particles/batch_access.h>
 #include <talus/steppers/survey.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace Talus
@@ -24,48 +27,99 @@ namespace Talus
     }
 
     // Comparisons are written so that NaN fails them.
-    bool is_finite(const double x) { return x <= std::numeric_limits<double>::max(); }
-    bool is_valid_volume_ratio(const double J) { return J > 0 && J <= 10; }
-    bool is_valid_increment(const double grad_v_dt) { return grad_v_dt <= 0.5; }
+    bool             is_finite(const double x) { return x <= std::numeric_limits<double>::max(); }
+    constexpr double largest_volume_ratio = 10, largest_increment = 0.5;
+    bool             is_valid_volume_ratio(const double J) { return J > 0 && J <= largest_volume_ratio; }
+    bool             is_valid_increment(const double grad_v_dt) { return grad_v_dt <= largest_increment; }
   } // namespace
 
   template <int dim>
-  Survey<dim> survey(Model<dim> &model, const double time, const double dt)
+  Surveyor<dim>::Surveyor(Model<dim> &model, const std::vector<MaterialRange> &ranges, const double time,
+                          const double dt) :
+    model(model),
+    ranges(ranges), time(time), dt(dt), b(model.acceleration.value({}, time))
   {
-    Particles<dim>     &particles = model.particles;
-    Survey<dim>         result;
-    std::vector<double> maxima(3, 0.), sums(3 + dim, 0.);
-    const auto          mass     = particles.component(particles.mass, 0);
-    const auto          volume   = particles.component(particles.volume, 0);
-    const auto          x        = particles.template components<dim>(particles.position);
-    const auto          v        = particles.template components<dim>(particles.velocity);
-    auto                b        = model.acceleration.value({}, time);
-    bool                is_valid = particles.outside == particles.none;
+    const WorkingSet<dim> &particles = model.particles;
 
-    for (unsigned int m = 0; m + 1 < particles.material_begin.size(); ++m)
-      for (unsigned int p = particles.material_begin[m]; p < particles.material_begin[m + 1]; ++p)
+    x        = particles.template components<dim>(particles.position);
+    v        = particles.template components<dim>(particles.velocity);
+    F        = particles.template components<dim * dim>(particles.F);
+    grad_v   = particles.template components<dim * dim>(particles.grad_v);
+    stress   = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass     = particles.component(particles.mass, 0);
+    volume   = particles.component(particles.volume, 0);
+    is_valid = Number(0.) == Number(0.);
+  }
+
+  template <int dim>
+  void Surveyor<dim>::look_at(const unsigned int begin, const unsigned int end)
+  {
+    speeds.resize(end - begin);
+    for (unsigned int m = 0; m < ranges.size(); ++m)
+    {
+      const MaterialRange range = intersection(ranges[m], begin, end);
+      if (range.begin < range.end)
+        model.materials[m]->wave_speeds(range, speeds.data() + (range.begin - begin));
+    }
+    for_each_batch(begin, end, [&](const auto batch) { look_at(batch, speeds.data() - begin); });
+
+    if (model.acceleration.depends_on_space())
+      for (unsigned int p = begin; p < end; ++p)
       {
-        Tensor<1, dim> v_p;
-        Point<dim>     x_p;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          v_p[d] = v[d][p];
-          x_p[d] = x[d][p];
-        }
-        if (model.acceleration.depends_on_space())
-          b = model.acceleration.value(x_p, time);
-        maxima[0] = std::max(maxima[0], model.materials[m]->wave_speed(mass[p] / volume[p]) + v_p.norm());
-        sums[0] += mass[p];
-        sums[1] += 0.5 * mass[p] * v_p.norm_square();
-        sums[2] += mass[p] * (b * v_p);
-        is_valid = is_valid && is_finite(magnitude(particles, p)) &&
-                   is_valid_volume_ratio(determinant(particles.matrix(particles.F, p))) &&
-                   is_valid_increment(dt * particles.matrix(particles.grad_v, p).norm());
+        const SingleBatch one{p};
+        const auto        b_p = model.acceleration.value(Point<dim>(load_vector<dim>(one, x)), time);
+        body_force_power += mass[p] * (b_p * load_vector<dim>(one, v));
       }
-    maxima[1] = particles.needs_synchronise;
-    maxima[2] = !is_valid;
-    for (unsigned int d = 0; d < dim; ++d)
-      sums[3 + d] = model.grid.lost_momentum[d];
+  }
+
+  template <int dim>
+  template <class Batch>
+  void Surveyor<dim>::look_at(const Batch &batch, const double *speeds)
+  {
+    const auto   v_p = load_vector<dim>(batch, v);
+    const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
+    signal_speed = max(signal_speed, batch.load(speeds) + sqrt(squares));
+    total_mass += counted_mass;
+    kinetic_energy += 0.5 * counted_mass * squares;
+    momentum += counted_mass * v_p;
+
+    // Comparisons are written so that NaN fails them.
+    Number magnitude = squares, increment = 0.;
+    for (const double *column : stress)
+      magnitude += abs(batch.load(column));
+    for (const double *column : grad_v)
+    {
+      const Number g = batch.load(column);
+      increment += g * g;
+    }
+    const Number J = determinant(load_matrix<dim>(batch, F));
+    is_valid       = is_valid & (magnitude <= Number(std::numeric_limits<double>::max())) & (J > Number(0.)) &
+               (J <= Number(largest_volume_ratio)) &
+               (dt * dt * increment <= Number(largest_increment * largest_increment));
+  }
+
+  template <int dim>
+  Survey<dim> Surveyor<dim>::finish(const double displacement)
+  {
+    const auto greatest = [](const Number &value) {
+      return *std::max_element(value.data(), value.data() + Number::n_lanes);
+    };
+    const auto sum = [](const Number &value) {
+      return std::accumulate(value.data(), value.data() + Number::n_lanes, 0.);
+    };
+    const auto  &particles  = model.particles;
+    const double power      = model.acceleration.depends_on_space() ? body_force_power : [&] {
+      double result = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        result += b[d] * sum(momentum[d]);
+      return result;
+    }();
+    const bool   has_failed = any(!is_valid) || particles.outside != particles.none;
+
+    std::vector<double> maxima = {greatest(signal_speed), static_cast<double>(particles.needs_synchronise),
+                                  static_cast<double>(has_failed), displacement};
+    std::vector<double> sums   = {sum(total_mass), sum(kinetic_energy), power};
+    sums.insert(sums.end(), model.grid.lost_momentum.begin_raw(), model.grid.lost_momentum.end_raw());
     for (const auto &condition : model.boundary.conditions)
     {
       sums.insert(sums.end(), condition->reaction.begin_raw(), condition->reaction.end_raw());
@@ -73,9 +127,11 @@ namespace Talus
     }
     reduce(maxima, sums, model.grid.communicator);
 
+    Survey<dim> result;
     result.signal_speed      = maxima[0];
     result.needs_synchronise = maxima[1] > 0;
     result.has_failed        = maxima[2] > 0;
+    result.displacement      = maxima[3];
     result.mass              = sums[0];
     result.kinetic_energy    = sums[1];
     result.body_force_power  = sums[2];
@@ -91,6 +147,15 @@ namespace Talus
       result.works.push_back(*next++);
     }
     return result;
+  }
+
+  template <int dim>
+  Survey<dim> survey(Model<dim> &model, const double time, const double dt)
+  {
+    const auto    ranges = material_ranges(model.particles, model.materials, dt);
+    Surveyor<dim> surveyor(model, ranges, time, dt);
+    surveyor.look_at(0, model.particles.size());
+    return surveyor.finish(/* displacement = */ 0.);
   }
 
   template <int dim>
@@ -186,6 +251,7 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
+  template class Surveyor<dim>;                                                                                        \
   template Survey<dim> survey(Model<dim> &, const double, const double);                                               \
   template void        report_failure(Model<dim> &, const unsigned int, const double, const double);                   \
   template class EnergyWatch<dim>;

@@ -12,54 +12,82 @@ namespace Talus
   namespace
   {
     /**
+     * B D^{-1} of one particle. D has a direction of zero length where all nodes lie
+     * in the particle's plane, at a wall: it takes C = grad v.
+     */
+    template <int dim>
+    Tensor<2, dim> divide(const Tensor<2, dim> &B, const SymmetricTensor<2, dim> &D, const Tensor<2, dim> &grad_v,
+                          const double smallest)
+    {
+      Tensor<2, dim> C;
+      for (const auto &[eigenvalue, e] : eigenvectors(D))
+        C += outer_product(eigenvalue < smallest ? grad_v * e : B * e / eigenvalue, e);
+      return C;
+    }
+
+    /**
      * Affine PIC, Eqs. (17)-(18), (25): stores B and forms C = B D^{-1} with the
      * weights of the step that scatters, which is what conserves angular momentum.
      */
     template <int dim>
-    struct Apic : SchemeDefaults<dim>
+    struct Apic : Scheme<dim>
     {
       static constexpr bool is_affine = true;
+      static constexpr bool needs_D   = true;
       static constexpr bool gathers_B = true;
 
       void add_fields(WorkingSet<dim> &particles) { B = particles.add_field("affine moment", dim * dim); }
-
-      /** B = grad v D: the scatter of the first step then carries the initial velocity gradient. */
-      void initialize(WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &stencil) const
+      void bind(WorkingSet<dim> &particles, TransferArrays<dim> &arrays) const
       {
-        const Tensor<2, dim> grad_v = particles.matrix(particles.grad_v, p);
-        store(particles, p, grad_v * Tensor<2, dim>(second_moment(stencil)));
+        arrays.B = particles.template components<dim * dim>(B);
       }
 
-      Tensor<2, dim> affine(const WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &stencil) const
+      /** B = grad v D: the scatter of the first step then carries the initial velocity gradient. */
+      void initialize(const TransferArrays<dim> &arrays, const SingleBatch &one, const SymmetricTensor<2, dim> &D) const
       {
-        const SymmetricTensor<2, dim> D = second_moment(stencil);
-        const Tensor<2, dim>          B = affine_moment(particles, p);
+        store_matrix<dim>(one, arrays.B, load_matrix<dim>(one, arrays.grad_v) * Tensor<2, dim>(D));
+      }
 
-        double h_squared = 0;
+      template <class Batch, typename Number = typename Batch::Number>
+      Tensor<2, dim, Number> affine(const TransferArrays<dim> &arrays, const Batch &batch,
+                                    const SymmetricTensor<2, dim, Number> &D) const
+      {
+        const auto   moment = load_matrix<dim>(batch, arrays.B);
+        const Number det = determinant(D), tr = trace(D);
+        // det / trace^(dim - 1) is a lower bound of the smallest eigenvalue of a positive definite D; the largest
+        // is at most the trace, which is of the order of h^2.
+        Number bound = 1e-12 * tr;
+        for (unsigned int d = 1; d < dim; ++d)
+          bound *= tr;
+        auto is_regular = det > bound;
         for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int k = 0; k < stencil.size; ++k)
-            h_squared = std::max(h_squared, stencil.offset[d][k] * stencil.offset[d][k]);
-        const double smallest = 1e-12 * h_squared;
-        // det / trace^(dim-1) is a lower bound of the smallest eigenvalue of a positive definite D.
-        const double det = determinant(D), tr = trace(D);
-        bool         is_positive = tr > 0 && det > smallest * std::pow(tr, dim - 1);
-        for (unsigned int d = 0; d < dim; ++d)
-          is_positive = is_positive && D[d][d] > 0;
-        if (is_positive && second_invariant(D) > 0)
-          return B * Tensor<2, dim>(invert(D));
+          is_regular = is_regular & (D[d][d] > Number(0.));
+        is_regular = is_regular & (tr * tr > D * D); // the sum of the products of two eigenvalues is positive
 
-        // A direction in which all nodes lie in the particle's plane, at a wall, takes C = grad v.
-        const Tensor<2, dim> grad_v = particles.matrix(particles.grad_v, p);
-        Tensor<2, dim>       C;
-        for (const auto &[eigenvalue, e] : eigenvectors(D))
-          C += outer_product(eigenvalue < smallest ? grad_v * e : B * e / eigenvalue, e);
+        auto C = moment * Tensor<2, dim, Number>(adjugate(D)) / det;
+        if (any(!is_regular))
+        {
+          const auto grad_v = load_matrix<dim>(batch, arrays.grad_v);
+          for (unsigned int l = 0; l < batch.size(); ++l)
+            if (!lane(is_regular, l))
+            {
+              SymmetricTensor<2, dim> D_p;
+              for (unsigned int c = 0; c < D_p.n_independent_components; ++c)
+                D_p.access_raw_entry(c) = lane(D.access_raw_entry(c), l);
+              const auto C_p = divide(lane(moment, l), D_p, lane(grad_v, l), 1e-12 * trace(D_p));
+              for (unsigned int c = 0; c < dim * dim; ++c)
+                set_lane(C[c / dim][c % dim], l, C_p[c / dim][c % dim]);
+            }
+        }
         return C;
       }
 
-      void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
+      template <class Batch>
+      void update(const TransferArrays<dim> &arrays, const Batch &batch,
+                  const Gathered<dim, typename Batch::Number> &sum) const
       {
-        this->set_velocity(particles, p, sum.velocity);
-        store(particles, p, sum.B);
+        store_vector<dim>(batch, arrays.velocity, sum.velocity);
+        store_matrix<dim>(batch, arrays.B, sum.B);
       }
 
       Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const
@@ -68,28 +96,25 @@ namespace Talus
       }
 
     private:
-      /** D, Eq. (18). */
-      static SymmetricTensor<2, dim> second_moment(const Stencil<dim> &stencil)
+      /** D^{-1} det D. */
+      template <typename Number>
+      static SymmetricTensor<2, dim, Number> adjugate(const SymmetricTensor<2, dim, Number> &D)
       {
-        SymmetricTensor<2, dim> D;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = 0; e <= d; ++e)
-            for (unsigned int k = 0; k < stencil.size; ++k)
-              D[d][e] += stencil.weight[k] * stencil.offset[d][k] * stencil.offset[e][k];
-        return D;
-      }
-
-      /** Sum of the products of two eigenvalues; in 2D the determinant. Negative for some indefinite D. */
-      static double second_invariant(const SymmetricTensor<2, dim> &D)
-      {
-        const double tr = trace(D);
-        return 0.5 * (tr * tr - D * D);
-      }
-
-      void store(WorkingSet<dim> &particles, const unsigned int p, const Tensor<2, dim> &value) const
-      {
-        for (unsigned int c = 0; c < dim * dim; ++c)
-          particles.component(B, c)[p] = value[c / dim][c % dim];
+        SymmetricTensor<2, dim, Number> result;
+        if constexpr (dim == 2)
+        {
+          result[0][0] = D[1][1];
+          result[1][1] = D[0][0];
+          result[0][1] = -D[0][1];
+        }
+        else
+          for (unsigned int i = 0; i < 3; ++i)
+          {
+            const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+            result[i][i] = D[j][j] * D[k][k] - D[j][k] * D[j][k];
+            result[i][j] = D[i][k] * D[k][j] - D[i][j] * D[k][k];
+          }
+        return result;
       }
 
       unsigned int B = 0;

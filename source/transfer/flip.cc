@@ -7,37 +7,48 @@ namespace Talus
   {
     /** FLIP, Eq. (22): the velocity changes by the grid's acceleration. */
     template <int dim>
-    struct Flip : SchemeDefaults<dim>
+    struct Flip : Scheme<dim>
     {
-      void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
+      static constexpr bool gathers_increment = true;
+
+      template <class Batch>
+      void update(const TransferArrays<dim> &arrays, const Batch &batch,
+                  const Gathered<dim, typename Batch::Number> &sum) const
       {
-        this->set_velocity(particles, p, particles.vector(particles.velocity, p) + sum.increment);
+        store_vector<dim>(batch, arrays.velocity, load_vector<dim>(batch, arrays.velocity) + sum.increment);
       }
     };
 
     /** PIC, Eq. (23): the velocity is that of the grid. */
     template <int dim>
-    struct Pic : SchemeDefaults<dim>
+    struct Pic : Scheme<dim>
     {
-      void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
+      template <class Batch>
+      void update(const TransferArrays<dim> &arrays, const Batch &batch,
+                  const Gathered<dim, typename Batch::Number> &sum) const
       {
-        this->set_velocity(particles, p, sum.velocity);
+        store_vector<dim>(batch, arrays.velocity, sum.velocity);
       }
     };
 
     /** Eq. (24): xi FLIP + (1 - xi) PIC. */
     template <int dim>
-    struct Blend : SchemeDefaults<dim>
+    struct Blend : Scheme<dim>
     {
+      static constexpr bool gathers_increment = true;
+
       void add_parameters(dealii::ParameterAcceptor &object)
       {
         object.add_parameter("FLIP fraction", flip_fraction, "xi of Eq. (24): 1 is FLIP, 0 is PIC [1].", object.prm,
                              dealii::Patterns::Double(0, 1));
       }
-      void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
+
+      template <class Batch>
+      void update(const TransferArrays<dim> &arrays, const Batch &batch,
+                  const Gathered<dim, typename Batch::Number> &sum) const
       {
-        const auto flip = particles.vector(particles.velocity, p) + sum.increment;
-        this->set_velocity(particles, p, flip_fraction * flip + (1 - flip_fraction) * sum.velocity);
+        const auto flip = load_vector<dim>(batch, arrays.velocity) + sum.increment;
+        store_vector<dim>(batch, arrays.velocity, flip_fraction * flip + (1 - flip_fraction) * sum.velocity);
       }
 
       double flip_fraction = 0.95;

@@ -7,17 +7,21 @@ namespace Talus
   {
     /** Taylor PIC, Eq. (19): the affine field is the first-order Taylor series, C = grad v. */
     template <int dim>
-    struct Tpic : SchemeDefaults<dim>
+    struct Tpic : Scheme<dim>
     {
       static constexpr bool is_affine = true;
 
-      dealii::Tensor<2, dim> affine(const WorkingSet<dim> &particles, const unsigned int p, const Stencil<dim> &) const
+      template <class Batch, class Moment>
+      auto affine(const TransferArrays<dim> &arrays, const Batch &batch, const Moment &) const
       {
-        return particles.matrix(particles.grad_v, p);
+        return load_matrix<dim>(batch, arrays.grad_v);
       }
-      void update(WorkingSet<dim> &particles, const unsigned int p, const Gathered<dim> &sum) const
+
+      template <class Batch>
+      void update(const TransferArrays<dim> &arrays, const Batch &batch,
+                  const Gathered<dim, typename Batch::Number> &sum) const
       {
-        this->set_velocity(particles, p, sum.velocity);
+        store_vector<dim>(batch, arrays.velocity, sum.velocity);
       }
     };
 

@@ -11,6 +11,8 @@ void names();
 void expressions();
 void reduction();
 void registry();
+void simd();
+void batches();
 
 int main(int argc, char **argv)
 {
@@ -25,5 +27,7 @@ int main(int argc, char **argv)
                     {"parameters: names", names},
                     {"expressions", expressions},
                     {"reduction", reduction},
-                    {"registry", registry}});
+                    {"registry", registry},
+                    {"simd", simd},
+                    {"batches", batches}});
 }

@@ -12,6 +12,7 @@ DECLARE(flip_keeps_velocity)
 DECLARE(flip_after_condition)
 DECLARE(motion)
 DECLARE(nodal_force)
+DECLARE(batched_and_plain)
 
 int main(int argc, char **argv)
 {
@@ -33,5 +34,7 @@ int main(int argc, char **argv)
                     {"motion 2D", motion<2>},
                     {"motion 3D", motion<3>},
                     {"nodal force 2D", nodal_force<2>},
-                    {"nodal force 3D", nodal_force<3>}});
+                    {"nodal force 3D", nodal_force<3>},
+                    {"batched and plain 2D", batched_and_plain<2>},
+                    {"batched and plain 3D", batched_and_plain<3>}});
 }

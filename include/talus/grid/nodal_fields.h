@@ -29,9 +29,6 @@ namespace Talus
     static constexpr unsigned int force     = 1 + dim;
     static constexpr unsigned int increment = 1 + dim;
 
-    /** The numbers of a node as one vector: GCC's extension, which compiles for every processor. */
-    using Lanes = double __attribute__((vector_size(stride * sizeof(double)), may_alias));
-
     void reinit(const dealii::IndexSet &owned_nodes, const dealii::IndexSet &relevant_nodes, MPI_Comm communicator);
 
     void clear() { values = 0.; }
@@ -50,9 +47,6 @@ namespace Talus
 
     double       *operator[](const unsigned int node) { return values.begin() + stride * node; }
     const double *operator[](const unsigned int node) const { return values.begin() + stride * node; }
-
-    Lanes       &lanes(const unsigned int node) { return *reinterpret_cast<Lanes *>((*this)[node]); }
-    const Lanes &lanes(const unsigned int node) const { return *reinterpret_cast<const Lanes *>((*this)[node]); }
 
   private:
     dealii::LinearAlgebra::distributed::Vector<double> values;

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <talus/core/simd.h>
+
 #include <deal.II/base/parameter_acceptor.h>
+
+#include <variant>
 
 namespace Talus
 {
@@ -13,12 +17,13 @@ namespace Talus
 
     double support() const { return 1; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
-    void   evaluate(const double s, double *weight, double *derivative) const
+    template <typename Number>
+    void evaluate(const Number &s, Number *weight, Number *derivative) const
     {
       weight[0]     = 1 - s;
       weight[1]     = s;
-      derivative[0] = -1;
-      derivative[1] = 1;
+      derivative[0] = -1.;
+      derivative[1] = 1.;
     }
   };
 
@@ -31,7 +36,8 @@ namespace Talus
 
     double support() const { return 1.5; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
-    void   evaluate(const double s, double *weight, double *derivative) const
+    template <typename Number>
+    void evaluate(const Number &s, Number *weight, Number *derivative) const
     {
       // s in [1/2, 3/2): the middle node is the nearest.
       weight[0]     = 0.5 * (1.5 - s) * (1.5 - s);
@@ -52,10 +58,11 @@ namespace Talus
 
     double support() const { return 2; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
-    void   evaluate(const double s, double *weight, double *derivative) const
+    template <typename Number>
+    void evaluate(const Number &s, Number *weight, Number *derivative) const
     {
       // t in [0, 1): distance from the second node.
-      const double t = s - 1, u = 1 - t;
+      const Number t = s - 1., u = 1. - t;
       weight[0]     = u * u * u / 6;
       weight[1]     = 2. / 3. - t * t + t * t * t / 2;
       weight[2]     = 2. / 3. - u * u + u * u * u / 2;
@@ -87,29 +94,22 @@ namespace Talus
                            "cell and direction.",
                            object.prm, dealii::Patterns::Double(1e-3, 0.5));
     }
-    void evaluate(const double s, double *weight, double *derivative) const
+    template <typename Number>
+    void evaluate(const Number &s, Number *weight, Number *derivative) const
     {
       for (unsigned int k = 0; k < n; ++k)
       {
-        const double r = s - k, d = r < 0 ? -r : r, sign = r < 0 ? -1 : 1;
-        if (d < lp)
-        {
-          weight[k]     = 1 - (d * d + lp * lp) / (2 * lp);
-          derivative[k] = -r / lp;
-        }
-        else if (d < 1 - lp)
-        {
-          weight[k]     = 1 - d;
-          derivative[k] = -sign;
-        }
-        else if (d < 1 + lp)
-        {
-          weight[k]     = (1 + lp - d) * (1 + lp - d) / (4 * lp);
-          derivative[k] = -sign * (1 + lp - d) / (2 * lp);
-        }
-        else
-          weight[k] = derivative[k] = 0;
+        const Number r = s - static_cast<double>(k), d = abs(r), sign = select(r < Number(0.), Number(-1.), Number(1.));
+        // From the middle outwards: |r| < lp, < 1 - lp, < 1 + lp, and nothing beyond.
+        const Number tail = max(Number(1 + lp - d), Number(0.));
+        weight[k]         = select(d < Number(1 - lp), 1. - d, tail * tail / (4 * lp));
+        weight[k]         = select(d < Number(lp), 1. - (d * d + lp * lp) / (2 * lp), weight[k]);
+        derivative[k]     = select(d < Number(1 - lp), -sign, -sign * tail / (2 * lp));
+        derivative[k]     = select(d < Number(lp), -r / lp, derivative[k]);
       }
     }
   };
+
+  /** All of them: the batched loops are compiled for each. */
+  using LatticeFunction = std::variant<LinearFunction, QuadraticBSpline, CubicBSpline, GimpFunction>;
 } // namespace Talus

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <talus/grid/lattice.h>
+#include <talus/kernels/functions.h>
 #include <talus/kernels/stencil.h>
 #include <talus/kernels/treatment.h>
 #include <talus/particles/working_set.h>
 
 #include <memory>
+#include <optional>
 
 namespace Talus
 {
@@ -31,7 +33,9 @@ namespace Talus
     virtual unsigned int n_nodes() const = 0;
     virtual double       shift() const   = 0;
 
-  protected:
+    /** The function of which the kernel is a product over the axes, if it is one: batched loops run for these. */
+    virtual std::optional<LatticeFunction> lattice_function() const { return {}; }
+
     const Lattice<dim>             *lattice = nullptr;
     std::unique_ptr<Treatment<dim>> treatment;
   };

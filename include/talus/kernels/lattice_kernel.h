@@ -63,6 +63,8 @@ namespace Talus
     unsigned int n_nodes() const override { return Function::n; }
     double       shift() const override { return Function::shift; }
 
+    std::optional<LatticeFunction> lattice_function() const override { return function; }
+
   private:
     /** Fills the factors of axis `d` and returns the lattice index of the stencil's first node. */
     int evaluate_axis(const double x, const unsigned int d, Axis &axis) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/simd.h>
 #include <talus/kernels/stencil.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -24,6 +25,31 @@ namespace Talus
   };
 
   /**
+   * The same axes for the particles of a batch, one in each lane. Nodes that do
+   * not exist have no weight. With the factors w, u, g, t of an axis (`weight`,
+   * `coupling`, `derivative`, `cross`) the kernel at a node is
+   * @f[ \phi = \prod_d w_d - \sum_d u_d \prod_{e \ne d} w_e , \qquad
+   *     \phi_{,d} = g_d \prod_{e \ne d} w_e - \sum_{e \ne d} u_e t_d \prod_{f \ne d, e} w_f : @f]
+   * more than a product, but made of functions of one coordinate.
+   */
+  template <int dim>
+  struct LatticeFactors
+  {
+    using Number = Simd<native_width>;
+    using Mask   = typename Number::Mask;
+
+    unsigned int n; // nodes per axis
+    double       boundary_scale;
+    Number       weight[dim][Axis::capacity], derivative[dim][Axis::capacity], offset[dim][Axis::capacity];
+    Number       coupling[dim][Axis::capacity], cross[dim][Axis::capacity];
+    Number       first[dim]; // lattice index of the stencil's first node
+    double       last[dim];  // that of the domain's last node
+    Mask         is_truncated[dim];
+    bool         is_coupled = false; // u is used
+    bool         has_cross  = false; // t is used
+  };
+
+  /**
    * What happens to a kernel near the edge of the domain, where nodes of its
    * support are missing. It wraps any kernel: it may change the factors of an
    * axis, or the finished stencil. Only particles near the edge get here.
@@ -39,6 +65,9 @@ namespace Talus
 
     /** Stencil of which at least one node is missing. `inverse_h` makes offsets of order one. */
     virtual void correct_stencil(Stencil<dim> &, const std::array<double, dim> & /*inverse_h*/) const {}
+
+    /** Both of the above for a batch: what the batched loops call, while the plain ones call those. */
+    virtual void correct_factors(LatticeFactors<dim> &) const {}
 
     /** True when complete stencils go through correct_stencil() as well. */
     virtual bool is_everywhere() const { return false; }

@@ -17,37 +17,41 @@ namespace Talus
    */
   struct MaterialRange
   {
+    static constexpr unsigned int max_states = 8;
+
     unsigned int begin, end;
-    double       dt; // [time]
+    double       dt;               // [time]
+    bool         is_plain = false; // one particle at a time instead of batches: the reference
 
     std::array<const double *, 9> grad_v; // row by row [1/time]
     std::array<const double *, 9> F;      // row by row [1]
     std::array<double *, 6>       stress; // Cauchy: xx, yy, zz, xy, xz, yz [stress]
     const double                 *mass, *volume;
-    std::vector<double *>         state; // the material's own fields, in the order of state_names()
+
+    std::array<double *, max_states> state; // the material's own fields, in the order of state_names()
   };
 
   /**
    * A constitutive law. It sees 3x3 tensors and neither the dimension nor the
-   * grid. A law is written once as a function of the tensors of one point;
-   * materials/update.h runs it over a range.
+   * grid. A law is written once, as a function of one point that is a template on
+   * the number; materials/point.h runs it over a range, many particles at a time.
    */
   class Material : public dealii::ParameterAcceptor
   {
   public:
     explicit Material(const std::string &section);
 
-    /** Names of the state fields that each particle carries for this material. */
+    /** Names of the state fields that each particle carries for this material; at most MaterialRange::max_states. */
     virtual std::vector<std::string> state_names() const { return {}; }
 
     /** Advances stress and state by the step; F and volume are those at its end. */
     virtual void update(const MaterialRange &range) const = 0;
 
-    /** Speed of pressure waves at a point of density `rho` [length/time]. */
-    virtual double wave_speed(const double rho) const = 0;
+    /** Speed of pressure waves [length/time] at each particle of the range; the first goes to speeds[0]. */
+    virtual void wave_speeds(const MaterialRange &range, double *speeds) const = 0;
 
-    /** Elastic energy per volume of a stress [stress]. */
-    virtual double strain_energy_density(const dealii::SymmetricTensor<2, 3> &stress) const = 0;
+    /** Elastic energy per current volume [stress] at each particle of the range; the first goes to densities[0]. */
+    virtual void strain_energy_densities(const MaterialRange &range, double *densities) const = 0;
 
     /** Ratio of horizontal to vertical stress of a layer at rest: nu / (1 - nu). */
     virtual double rest_stress_ratio() const = 0;

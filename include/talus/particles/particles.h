@@ -37,10 +37,20 @@ namespace Talus
     void set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift);
 
     /**
-     * Finds out whether all particles can stay with this rank, and whether one has
-     * left the grid. What it finds is acted on where the ranks meet next.
+     * Finds out whether the particles begin .. end - 1 can stay with this rank, and
+     * whether one has left the grid. What is found is acted on where the ranks meet next.
      */
-    void relocate();
+    void relocate(const unsigned int begin, const unsigned int end);
+
+    /** Forgets what relocate() has found before. */
+    void start_relocation();
+
+    /** Both, for all particles. */
+    void relocate()
+    {
+      start_relocation();
+      relocate(0, this->size());
+    }
 
     /** Sends particles to the ranks that own their cells and restores the canonical order. Collective. */
     void synchronise();
@@ -65,6 +75,7 @@ namespace Talus
     std::vector<unsigned int> body_material;
 
     std::vector<char> coverage;
-    double            stencil_shift = 0;
+    double            stencil_shift      = 0;
+    bool              knows_all_stencils = false; // this rank has the nodes of every stencil in the domain
   };
 } // namespace Talus

@@ -35,6 +35,6 @@ namespace Talus
    * Test: tests/postprocess/energies.cc.
    */
   template <int dim>
-  Totals<dim> totals(const WorkingSet<dim> &particles, const Transfer<dim> &transfer,
+  Totals<dim> totals(WorkingSet<dim> &particles, const Transfer<dim> &transfer,
                      const std::vector<std::unique_ptr<Material>> &materials, MPI_Comm communicator);
 } // namespace Talus

@@ -6,7 +6,7 @@
 #include <talus/postprocess/probes.h>
 #include <talus/postprocess/progress.h>
 #include <talus/postprocess/statistics.h>
-#include <talus/steppers/survey.h>
+#include <talus/steppers/explicit_step.h>
 
 #include <fstream>
 #include <sstream>
@@ -39,11 +39,12 @@ namespace Talus
     void        say(const std::string &text);
     std::string summary() const;
 
-    MPI_Comm            communicator;
-    const Parameters   &parameters;
-    std::ostringstream  timing_table;
-    dealii::TimerOutput timer;
-    std::ofstream       log;
+    MPI_Comm           communicator;
+    const Parameters  &parameters;
+    Timing             timing;
+    const StepTiming   step_timing;
+    const unsigned int set_up_section, synchronise_section, output_section, comparison_section;
+    std::ofstream      log;
 
     Grid<dim>                               grid;
     std::vector<std::unique_ptr<Material>>  materials;

@@ -1,38 +1,30 @@
 #pragma once
 
-#include <talus/boundary/condition.h>
-#include <talus/materials/material.h>
-#include <talus/particles/particles.h>
-#include <talus/transfer/transfer.h>
-
-#include <deal.II/base/timer.h>
+#include <talus/core/timing.h>
+#include <talus/steppers/survey.h>
 
 namespace Talus
 {
-  /** The parts of a run that a step works on. */
-  template <int dim>
-  struct Model
+  /** The sections of a step in the timing table. */
+  struct StepTiming
   {
-    Grid<dim>                              &grid;
-    Particles<dim>                         &particles;
-    Kernel<dim>                            &kernel;
-    Transfer<dim>                          &transfer;
-    Boundary<dim>                          &boundary;
-    std::vector<std::unique_ptr<Material>> &materials;
-    ParsedVector<dim>                      &acceleration; // body force per mass
+    explicit StepTiming(Timing &timing);
+
+    Timing            &timing;
+    const unsigned int particle_to_grid, grid, grid_to_particle, stress, relocate;
   };
 
-  /** One explicit step in the order of Fig. 1, stress last. */
+  /** One explicit step in the order of Fig. 1, stress last; returns what the next one needs to know. Collective. */
   template <int dim>
-  void explicit_step(Model<dim> &model, const double time, const double dt, dealii::TimerOutput &timer);
+  Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing);
 
-  /** Eqs. (27)-(30): deformation gradient, volume, stress and state from the new velocity gradients. */
+  /** Eqs. (27)-(30) of particles begin .. end - 1: deformation gradient, volume, stress and state from grad v. */
+  template <int dim>
+  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
+                     const std::vector<MaterialRange> &ranges, const unsigned int begin, const unsigned int end);
+
+  /** The same for all particles. */
   template <int dim>
   void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
                      const double dt);
-
-  /** What material `m` sees of the particles. */
-  template <int dim>
-  MaterialRange material_range(Particles<dim> &particles, const Material &material, const unsigned int m,
-                               const double dt);
 } // namespace Talus

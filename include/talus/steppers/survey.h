@@ -1,6 +1,7 @@
 #pragma once
 
-#include <talus/steppers/explicit_step.h>
+#include <talus/core/tensors.h>
+#include <talus/steppers/model.h>
 
 namespace Talus
 {
@@ -9,6 +10,7 @@ namespace Talus
   struct Survey
   {
     double                 signal_speed      = 0; // max (c_p + |v_p|) [length/time], Eq. (35)
+    double                 displacement      = 0; // largest of a particle in the last step [spacing]
     bool                   needs_synchronise = false;
     bool                   has_failed        = false; // a particle broke a limit of validity
     double                 mass              = 0;
@@ -20,7 +22,43 @@ namespace Talus
     std::vector<double>                 works;     // of each condition in the last step [energy]
   };
 
-  /** Looks at all particles and conditions. Collective. */
+  /** Makes a survey, one block of particles after the other. */
+  template <int dim>
+  class Surveyor
+  {
+  public:
+    Surveyor(Model<dim> &model, const std::vector<MaterialRange> &ranges, const double time, const double dt);
+
+    /** Looks at the particles begin .. end - 1, after their relocate(). */
+    void look_at(const unsigned int begin, const unsigned int end);
+
+    /** What has been seen, and the conditions, of all ranks. Collective. */
+    Survey<dim> finish(const double displacement);
+
+  private:
+    using Number = Simd<native_width>;
+
+    template <class Batch>
+    void look_at(const Batch &batch, const double *speeds);
+
+    Model<dim>                       &model;
+    const std::vector<MaterialRange> &ranges;
+    const double                      time, dt;
+
+    std::array<const double *, dim>                       x, v;
+    std::array<const double *, dim * dim>                 F, grad_v;
+    std::array<const double *, WorkingSet<dim>::n_stress> stress;
+    const double                                         *mass, *volume;
+
+    dealii::Tensor<1, dim>         b; // body force per mass, where it is uniform
+    std::vector<double>            speeds;
+    Number                         signal_speed = 0., total_mass = 0., kinetic_energy = 0.;
+    dealii::Tensor<1, dim, Number> momentum;
+    typename Number::Mask          is_valid;
+    double                         body_force_power = 0;
+  };
+
+  /** Looks at all particles and conditions; before the first step. Collective. */
   template <int dim>
   Survey<dim> survey(Model<dim> &model, const double time, const double dt);
 

@@ -27,11 +27,25 @@ namespace Talus
     virtual void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
                                   const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) const = 0;
 
-    /** Eqs. (22)-(26), (31): new velocity, position, velocity gradient and what the transfer stores. */
-    virtual void grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
-                                  WorkingSet<dim> &particles) const = 0;
+    /**
+     * Eqs. (22)-(26), (31) for the particles begin .. end - 1: new velocity, position, velocity gradient and
+     * what the transfer stores. Returns the largest displacement along an axis [spacing].
+     */
+    virtual double grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
+                                    WorkingSet<dim> &particles, const unsigned int begin,
+                                    const unsigned int end) const = 0;
+
+    /** The same for all particles. */
+    double grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
+                            WorkingSet<dim> &particles) const
+    {
+      return grid_to_particle(grid, kernel, dt, particles, 0, particles.size());
+    }
 
     /** sum_i phi_ip v_i (x) (x_i - x_p) of a particle where the transfer keeps it: its share of angular momentum. */
     virtual dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &, const unsigned int /*p*/) const { return {}; }
+
+    /** One particle at a time through stencils in memory, instead of batches: slow, and the reference for those. */
+    bool is_plain = false;
   };
 } // namespace Talus

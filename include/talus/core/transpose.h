@@ -1,0 +1,81 @@
+#pragma once
+
+#include <talus/core/simd.h>
+
+#include <utility>
+
+namespace Talus
+{
+  namespace internal
+  {
+    /** Exchanges the off-diagonal blocks of size d in two rows of a matrix of registers. */
+    template <int d, typename Part, std::size_t... k>
+    [[gnu::always_inline]] inline void exchange(Part &a, Part &b, std::index_sequence<k...>)
+    {
+      constexpr int n = sizeof...(k);
+      using Integer   = typename Register<n>::Integer;
+      const Integer first{(k & d ? n + (k - d) : k)...}, second{(k & d ? n + k : k + d)...};
+      const Part    old_a = a;
+      a                   = __builtin_shuffle(old_a, b, first);
+      b                   = __builtin_shuffle(old_a, b, second);
+    }
+
+    /** Transposes the blocks of size `block` of n_rows registers, each of n lanes. */
+    template <int n, int block, typename Part>
+    [[gnu::always_inline]] inline void transpose_blocks(Part *rows)
+    {
+      if constexpr (block >= 2)
+        for (int i = 0; i < block; i += 2)
+          exchange<1>(rows[i], rows[i + 1], std::make_index_sequence<n>());
+      if constexpr (block >= 4)
+        for (int i = 0; i < block; ++i)
+          if ((i & 2) == 0)
+            exchange<2>(rows[i], rows[i + 2], std::make_index_sequence<n>());
+      if constexpr (block >= 8)
+        for (int i = 0; i < 4; ++i)
+          exchange<4>(rows[i], rows[i + 4], std::make_index_sequence<n>());
+    }
+  } // namespace internal
+
+  /** From eight numbers of `width` particles, side by side, to one vector of eight for each particle. */
+  template <int width>
+  [[gnu::always_inline]] inline void lanes_to_vectors(const Simd<width> (&rows)[8], Simd<8> (&columns)[width])
+  {
+    static_assert(width <= native_width, "a batch must fit a register");
+    for (int block = 0; block < 8 / width; ++block)
+    {
+      typename Simd<width>::Part part[width];
+      for (int i = 0; i < width; ++i)
+        part[i] = rows[block * width + i].part[0];
+      internal::transpose_blocks<width, width>(part);
+      for (int l = 0; l < width; ++l)
+        std::memcpy(reinterpret_cast<char *>(columns[l].part) + block * sizeof(part[l]), &part[l], sizeof(part[l]));
+    }
+  }
+
+  /** From one vector of four for each of `width` particles to four numbers of all of them. */
+  template <int width>
+  [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<4> (&columns)[width], Simd<width> (&rows)[4])
+  {
+    static_assert(width <= native_width, "a batch must fit a register");
+    if constexpr (width == 8)
+    {
+      for (int i = 0; i < 4; ++i)
+        rows[i].part[0] = __builtin_shufflevector(columns[i].part[0], columns[i + 4].part[0], 0, 1, 2, 3, 4, 5, 6, 7);
+      typename Simd<width>::Part part[4] = {rows[0].part[0], rows[1].part[0], rows[2].part[0], rows[3].part[0]};
+      internal::transpose_blocks<8, 4>(part);
+      for (int i = 0; i < 4; ++i)
+        rows[i].part[0] = part[i];
+    }
+    else
+      for (int block = 0; block < 4 / width; ++block)
+      {
+        typename Simd<width>::Part part[width];
+        for (int l = 0; l < width; ++l)
+          std::memcpy(&part[l], columns[l].data() + block * width, sizeof(part[l]));
+        internal::transpose_blocks<width, width>(part);
+        for (int i = 0; i < width; ++i)
+          rows[block * width + i].part[0] = part[i];
+      }
+  }
+} // namespace Talus

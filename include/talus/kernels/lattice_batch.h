@@ -1,0 +1,139 @@
+#pragma once
+
+#include <talus/core/batch.h>
+#include <talus/kernels/kernel.h>
+
+namespace Talus
+{
+  /**
+   * The stencils of the particles of a batch on a lattice, one particle in each
+   * lane. Away from the domain's faces weights and gradients are products of the
+   * axes' factors; at them they stand in lists, x running fastest.
+   */
+  template <int dim, unsigned int n>
+  struct LatticeBatch
+  {
+    using Number = Simd<native_width>;
+
+    static constexpr unsigned int n_nodes = dim == 2 ? n * n : n * n * n;
+
+    alignas(64) int first_node[Number::n_lanes]; // place of the stencil's first node in the lattice's tables
+    bool   is_product;
+    Number weight[dim][n], derivative[dim][n], offset[dim][n];
+
+    // Where not a product.
+    Number value[n_nodes], gradient[dim][n_nodes];
+  };
+
+  /** Fills the lists from the factors. */
+  template <int dim, unsigned int n>
+  void multiply(const LatticeFactors<dim> &factors, LatticeBatch<dim, n> &stencil)
+  {
+    using Number  = typename LatticeBatch<dim, n>::Number;
+    const auto &w = factors.weight, &u = factors.coupling, &g = factors.derivative, &t = factors.cross;
+    for (unsigned int i = 0; i < LatticeBatch<dim, n>::n_nodes; ++i)
+    {
+      const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
+      // The product of the weights of the axes but two.
+      const auto others = [&](const unsigned int d, const unsigned int e) {
+        Number product = 1.;
+        for (unsigned int f = 0; f < dim; ++f)
+          if (f != d && f != e)
+            product *= w[f][k[f]];
+        return product;
+      };
+      stencil.value[i] = w[0][k[0]] * others(0, 0);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        if (factors.is_coupled)
+          stencil.value[i] -= u[d][k[d]] * others(d, d);
+        stencil.gradient[d][i] = g[d][k[d]] * others(d, d);
+        if (factors.has_cross)
+          for (unsigned int e = 0; e < dim; ++e)
+            if (e != d)
+              stencil.gradient[d][i] -= u[e][k[e]] * t[d][k[d]] * others(d, e);
+      }
+    }
+  }
+
+  /** What the treatment makes of a batch in which a stencil reaches beyond a face of the domain. */
+  template <int dim, class Function>
+  void correct_batch(const Function &function, const Lattice<dim> &lattice, const Treatment<dim> &treatment,
+                     const std::array<Simd<native_width>, dim> &first, LatticeBatch<dim, Function::n> &stencil)
+  {
+    using Number             = Simd<native_width>;
+    constexpr unsigned int n = Function::n;
+    LatticeFactors<dim>    factors;
+    factors.n              = n;
+    factors.boundary_scale = Function::boundary_scale;
+    // Round-off must not make a node at the very end of the support count as missing.
+    const double reach = function.support() - 1e-12;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      factors.first[d]        = first[d];
+      factors.last[d]         = lattice.n_cells[d];
+      const Number coordinate = first[d] - stencil.offset[d][0] * lattice.inverse_h[d];
+      factors.is_truncated[d] =
+        (coordinate + 1. < Number(reach)) | (lattice.n_cells[d] + 1. - coordinate < Number(reach));
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        const Number index       = first[d] + static_cast<double>(k);
+        const auto   is_there    = (index >= Number(0.)) & (index <= Number(factors.last[d]));
+        factors.weight[d][k]     = select(is_there, stencil.weight[d][k], Number(0.));
+        factors.derivative[d][k] = select(is_there, stencil.derivative[d][k], Number(0.));
+        factors.offset[d][k]     = stencil.offset[d][k];
+      }
+    }
+    treatment.correct_factors(factors);
+    multiply(factors, stencil);
+  }
+
+  /** The stencils of the particles at `x`, one in each lane. */
+  template <int dim, class Function>
+  [[gnu::always_inline]] inline void evaluate_batch(const Function &function, const Lattice<dim> &lattice,
+                                                    const Treatment<dim>                             &treatment,
+                                                    const dealii::Tensor<1, dim, Simd<native_width>> &x,
+                                                    LatticeBatch<dim, Function::n>                   &stencil)
+  {
+    using Number                        = Simd<native_width>;
+    constexpr unsigned int n            = Function::n;
+    constexpr int          w            = Number::n_lanes;
+    const bool             needs_margin = treatment.needs_boundary_scale(); // Steffen changes complete stencils as well
+    const bool             least_squares = n > 2 && treatment.is_everywhere();
+
+    std::array<Number, dim> first;
+    auto                    is_at_face = Number(1.) < Number(0.);
+    for (unsigned int l = 0; l < w; ++l)
+      stencil.first_node[l] = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      alignas(64) int base[w];
+      const Number    coordinate = (x[d] - lattice.origin[d]) * lattice.inverse_h[d];
+      first[d]                   = floor(coordinate - Number(Function::shift), base);
+      const Number s             = coordinate - first[d];
+      function.evaluate(s, stencil.weight[d], stencil.derivative[d]);
+      for (unsigned int k = 0; k < n; ++k)
+        stencil.offset[d][k] = (static_cast<double>(k) - s) * lattice.h[d];
+      if (least_squares)
+      {
+        // A complete B-spline has m0 = 1 and mean 0: see AxisMoments.
+        Number variance = 0.;
+        for (unsigned int k = 0; k < n; ++k)
+          variance += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
+        const Number inverse = 1. / variance;
+        for (unsigned int k = 0; k < n; ++k)
+          stencil.derivative[d][k] = stencil.weight[d][k] * stencil.offset[d][k] * inverse;
+      }
+      else
+        for (unsigned int k = 0; k < n; ++k)
+          stencil.derivative[d][k] *= lattice.inverse_h[d];
+      for (unsigned int l = 0; l < w; ++l)
+        stencil.first_node[l] += (base[l] - lattice.first[d]) * lattice.stride[d];
+      is_at_face = is_at_face | (first[d] < Number(needs_margin ? 1. : 0.)) |
+                   (first[d] > Number(lattice.n_cells[d] + (needs_margin ? 0. : 1.) - n));
+    }
+    stencil.is_product = !any(is_at_face);
+    if (!stencil.is_product)
+      correct_batch<dim, Function>(function, lattice, treatment, first, stencil);
+  }
+} // namespace Talus

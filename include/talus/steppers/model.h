@@ -1,0 +1,22 @@
+#pragma once
+
+#include <talus/boundary/condition.h>
+#include <talus/particles/material_range.h>
+#include <talus/particles/particles.h>
+#include <talus/transfer/transfer.h>
+
+namespace Talus
+{
+  /** The parts of a run that a step works on. */
+  template <int dim>
+  struct Model
+  {
+    Grid<dim>                              &grid;
+    Particles<dim>                         &particles;
+    Kernel<dim>                            &kernel;
+    Transfer<dim>                          &transfer;
+    Boundary<dim>                          &boundary;
+    std::vector<std::unique_ptr<Material>> &materials;
+    ParsedVector<dim>                      &acceleration; // body force per mass
+  };
+} // namespace Talus

@@ -1,0 +1,434 @@
+#pragma once
+
+#include <talus/core/function.h>
+#include <talus/core/transpose.h>
+#include <talus/grid/grid.h>
+#include <talus/kernels/lattice_batch.h>
+#include <talus/transfer/scheme.h>
+
+namespace Talus
+{
+  /**
+   * Both passes of a scheme for kernels that are products over the axes, a batch of
+   * particles at a time. What depends on the particle alone is computed with one
+   * particle in each lane; for its nodes, the lanes are the eight numbers of a node
+   * (see NodalFields), and the registers are transposed in between. Missing nodes
+   * occur at the domain's faces only, where stencils are lists.
+   */
+  template <int dim, class Scheme, class Function>
+  class BatchedLoops
+  {
+  public:
+    static void particle_to_grid(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
+                                 const unsigned int n_particles, const Kernel<dim> &kernel,
+                                 const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid)
+    {
+      const Lattice<dim>  &lattice   = *kernel.lattice;
+      Fields              &fields    = grid.fields;
+      const auto           uniform_b = acceleration.value({}, time);
+      LatticeBatch<dim, n> stencil;
+      for_each_batch(0, n_particles, [&](const auto batch) {
+        const auto x = load_vector<dim>(batch, arrays.position);
+        evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
+        VectorNumber b;
+        for (unsigned int d = 0; d < dim; ++d)
+          b[d] = uniform_b[d];
+        if (acceleration.depends_on_space())
+          b = body_force(acceleration, x, time);
+
+        Vectors add;
+        contribution(scheme, arrays, batch, stencil, b, add);
+        const Factors factors(stencil);
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (stencil.is_product)
+            scatter_product(add, factors, lattice, stencil, l, fields);
+          else
+            scatter_list(add, lattice, stencil, l, fields);
+      });
+    }
+
+    static double grid_to_particle(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
+                                   const Kernel<dim> &kernel, const Grid<dim> &grid, const double dt,
+                                   const unsigned int begin, const unsigned int end)
+    {
+      const Lattice<dim>  &lattice      = *kernel.lattice;
+      const Fields        &fields       = grid.fields;
+      Number               displacement = 0.;
+      LatticeBatch<dim, n> stencil;
+      for_each_batch(begin, end, [&](const auto batch) {
+        const auto x = load_vector<dim>(batch, arrays.position);
+        evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
+        const Factors factors(stencil);
+        Sums          sums;
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (stencil.is_product)
+            gather_product(factors, lattice, stencil, l, fields, sums);
+          else
+            gather_list(lattice, stencil, l, fields, sums);
+        for (unsigned int l = batch.size(); l < width; ++l)
+          sums.repeat(l - 1, l);
+
+        const Gathered<dim, Number> sum = sums.gathered();
+        store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
+        store_matrix<dim>(batch, arrays.grad_v, sum.grad_v);
+        scheme.update(arrays, batch, sum);
+        for (unsigned int d = 0; d < dim; ++d)
+          displacement = max(displacement, abs(sum.velocity[d]) * (dt * lattice.inverse_h[d]));
+      });
+      return *std::max_element(displacement.data(), displacement.data() + width);
+    }
+
+  private:
+    static constexpr unsigned int n         = Function::n;
+    static constexpr unsigned int width     = native_width;
+    static constexpr bool         is_affine = Scheme::is_affine;
+
+    using Fields       = NodalFields<dim>;
+    using Number       = Simd<native_width>;
+    using VectorNumber = dealii::Tensor<1, dim, Number>;
+    using Node         = Simd<8>; // all numbers of a node
+    using Motion       = Simd<4>; // the four from the velocity on
+
+    static_assert(Fields::stride == 8 && Fields::velocity == 1 && Fields::increment == 1 + dim, "the layout of a node");
+
+    /** What each particle adds to its nodes: phi constant + (phi offset or grad phi, by lane) . linear. */
+    struct Vectors
+    {
+      Node constant[width], linear[dim][width];
+    };
+
+    /** Products of the axes' factors that both passes need. */
+    struct Factors
+    {
+      explicit Factors(const LatticeBatch<dim, n> &stencil)
+      {
+        if constexpr (is_affine || Scheme::gathers_B)
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int k = 0; k < n; ++k)
+              moment[d][k] = stencil.weight[d][k] * stencil.offset[d][k];
+      }
+      Number moment[dim][n];
+    };
+
+    static typename Node::Mask is_force()
+    {
+      double lane[8];
+      for (unsigned int i = 0; i < 8; ++i)
+        lane[i] = i;
+      return Node::load(lane) >= Node(Fields::force);
+    }
+
+    /** The force lanes of a node take the gradient, those of the momentum the offset. */
+    static Node blend(const double moment, const double gradient)
+    {
+      return is_affine ? select(is_force(), Node(gradient), Node(moment)) : Node(gradient);
+    }
+
+    static VectorNumber body_force(const ParsedVector<dim> &acceleration, const VectorNumber &x, const double time)
+    {
+      VectorNumber b;
+      for (unsigned int l = 0; l < width; ++l)
+      {
+        dealii::Point<dim> x_p;
+        for (unsigned int d = 0; d < dim; ++d)
+          x_p[d] = x[d][l];
+        const auto b_p = acceleration.value(x_p, time);
+        for (unsigned int d = 0; d < dim; ++d)
+          b[d].set(l, b_p[d]);
+      }
+      return b;
+    }
+
+    template <class Batch>
+    [[gnu::always_inline]] static void contribution(const Scheme &scheme, const TransferArrays<dim> &arrays,
+                                                    const Batch &batch, const LatticeBatch<dim, n> &stencil,
+                                                    const VectorNumber &b, Vectors &add)
+    {
+      const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
+      Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
+      rows[Fields::mass]   = m; // Eq. (13)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        rows[Fields::momentum + d] = m * batch.load(arrays.velocity[d]); // Eq. (15)
+        rows[Fields::force + d]    = m * b[d];                           // Eq. (12)
+      }
+      lanes_to_vectors<width>(rows, add.constant);
+
+      dealii::Tensor<2, dim, Number> C;
+      if constexpr (is_affine)
+        C = scheme.affine(arrays, batch, second_moment(stencil));
+      for (unsigned int e = 0; e < dim; ++e)
+      {
+        rows[Fields::mass] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          rows[Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
+          // Eq. (11); xy, xz, yz follow the three diagonal components.
+          rows[Fields::force + d] = -V * batch.load(arrays.stress[d == e ? d : 2 + d + e]);
+        }
+        lanes_to_vectors<width>(rows, add.linear[e]);
+      }
+    }
+
+    /** D, Eq. (18), if the scheme needs it. */
+    [[gnu::always_inline]] static dealii::SymmetricTensor<2, dim, Number> second_moment(
+      const LatticeBatch<dim, n> &stencil)
+    {
+      dealii::SymmetricTensor<2, dim, Number> D;
+      if constexpr (Scheme::needs_D)
+      {
+        if (stencil.is_product) // of factors that reproduce linear functions: their mean offset is zero
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int k = 0; k < n; ++k)
+              D[d][d] += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
+        else
+          for (unsigned int i = 0; i < stencil.n_nodes; ++i)
+          {
+            const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int e = 0; e <= d; ++e)
+                D[d][e] += stencil.value[i] * stencil.offset[d][k[d]] * stencil.offset[e][k[e]];
+          }
+      }
+      return D;
+    }
+
+    [[gnu::always_inline]] static void add_to(double *node, const Node &value)
+    {
+      (Node::load(node) + value).store(node);
+    }
+
+    [[gnu::always_inline]] static void scatter_product(const Vectors &add, const Factors &factors,
+                                                       const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                                                       const unsigned int l, Fields &fields)
+    {
+      const auto weight = [&](const unsigned int d, const unsigned int k) { return stencil.weight[d][k].data()[l]; };
+      const auto slope  = [&](const unsigned int d, const unsigned int k) {
+        return blend(is_affine ? factors.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
+      };
+      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
+
+      Node row[n]; // of the x axis
+      for (unsigned int a = 0; a < n; ++a)
+        row[a] = weight(0, a) * add.constant[l] + slope(0, a) * add.linear[0][l];
+      if constexpr (dim == 2)
+        for (unsigned int b = 0; b < n; ++b)
+        {
+          const Node          across = slope(1, b) * add.linear[1][l];
+          const unsigned int *node   = nodes + b * lattice.stride[1];
+          for (unsigned int a = 0; a < n; ++a)
+            add_to(fields[node[a]], weight(1, b) * row[a] + weight(0, a) * across);
+        }
+      else
+      {
+        Node along[n];
+        for (unsigned int c = 0; c < n; ++c)
+          along[c] = slope(dim - 1, c) * add.linear[dim - 1][l];
+        for (unsigned int b = 0; b < n; ++b)
+        {
+          const Node across = slope(1, b) * add.linear[1][l];
+          for (unsigned int a = 0; a < n; ++a)
+          {
+            const Node          plane = weight(1, b) * row[a] + weight(0, a) * across;
+            const Node          both  = weight(0, a) * weight(1, b);
+            const unsigned int *node  = nodes + b * lattice.stride[1] + a;
+            for (unsigned int c = 0; c < n; ++c)
+              add_to(fields[node[c * lattice.stride[dim - 1]]], weight(dim - 1, c) * plane + both * along[c]);
+          }
+        }
+      }
+    }
+
+    /** Calls `body(i, a, node)` for the existing nodes of a stencil that is a list; a is the place along each axis. */
+    template <class Body>
+    [[gnu::always_inline]] static void for_each_node(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                                                     const unsigned int l, const Body &body)
+    {
+      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
+      for (unsigned int i = 0; i < stencil.n_nodes; ++i)
+      {
+        const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
+        unsigned int node = nodes[k[0] + k[1] * lattice.stride[1] + (dim == 3 ? k[2] * lattice.stride[dim - 1] : 0)];
+        if (node != Lattice<dim>::missing)
+          body(i, k, node);
+      }
+    }
+
+    static void scatter_list(const Vectors &add, const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                             const unsigned int l, Fields &fields)
+    {
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int node) {
+        const double phi   = stencil.value[i].data()[l];
+        Node         value = phi * add.constant[l];
+        for (unsigned int d = 0; d < dim; ++d)
+          value += blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
+        add_to(fields[node], value);
+      });
+    }
+
+    /** What each particle of a batch gathers. */
+    struct Sums
+    {
+      static constexpr bool has_own_increment = Scheme::gathers_increment && dim == 3; // in 2D it fits into `value`
+
+      Motion value[width], gradient[dim][width], moment[dim][width], increment[width];
+
+      void repeat(const unsigned int from, const unsigned int to)
+      {
+        value[to] = value[from];
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          gradient[d][to] = gradient[d][from];
+          if constexpr (Scheme::gathers_B)
+            moment[d][to] = moment[d][from];
+        }
+        if constexpr (has_own_increment)
+          increment[to] = increment[from];
+      }
+
+      [[gnu::always_inline]] Gathered<dim, Number> gathered() const
+      {
+        Gathered<dim, Number> sum;
+        Number                rows[4];
+        vectors_to_lanes<width>(value, rows);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          sum.velocity[d] = rows[d];
+          if constexpr (Scheme::gathers_increment && dim == 2)
+            sum.increment[d] = rows[dim + d];
+        }
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          vectors_to_lanes<width>(gradient[e], rows);
+          for (unsigned int d = 0; d < dim; ++d)
+            sum.grad_v[d][e] = rows[d];
+          if constexpr (Scheme::gathers_B)
+          {
+            vectors_to_lanes<width>(moment[e], rows);
+            for (unsigned int d = 0; d < dim; ++d)
+              sum.B[d][e] = rows[d];
+          }
+        }
+        if constexpr (has_own_increment)
+        {
+          vectors_to_lanes<width>(increment, rows);
+          for (unsigned int d = 0; d < dim; ++d)
+            sum.increment[d] = rows[d];
+        }
+        return sum;
+      }
+    };
+
+    [[gnu::always_inline]] static void gather_product(const Factors &factors, const Lattice<dim> &lattice,
+                                                      const LatticeBatch<dim, n> &stencil, const unsigned int l,
+                                                      const Fields &fields, Sums &sums)
+    {
+      const auto weight = [&](const unsigned int d, const unsigned int k) {
+        return Motion(stencil.weight[d][k].data()[l]);
+      };
+      const auto slope = [&](const unsigned int d, const unsigned int k) {
+        return Motion(stencil.derivative[d][k].data()[l]);
+      };
+      const auto lever = [&](const unsigned int d, const unsigned int k) {
+        return Motion(factors.moment[d][k].data()[l]);
+      };
+      constexpr bool      gathers_B = Scheme::gathers_B;
+      const unsigned int *nodes     = lattice.node.data() + stencil.first_node[l];
+
+      Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
+      for (unsigned int c = 0; c < (dim == 3 ? n : 1); ++c)
+      {
+        // Sums over a plane; in 2D there is one.
+        Motion plane = 0., plane_gradient[2] = {0., 0.}, plane_moment[2] = {0., 0.}, plane_increment = 0.;
+        for (unsigned int b = 0; b < n; ++b)
+        {
+          Motion              row = 0., row_gradient = 0., row_moment = 0., row_increment = 0.;
+          const unsigned int *node = nodes + b * lattice.stride[1] + (dim == 3 ? c * lattice.stride[dim - 1] : 0);
+          for (unsigned int a = 0; a < n; ++a)
+          {
+            const double *values = fields[node[a]];
+            const Motion  v      = Motion::load(values + Fields::velocity);
+            row += weight(0, a) * v;
+            row_gradient += slope(0, a) * v;
+            if constexpr (gathers_B)
+              row_moment += lever(0, a) * v;
+            if constexpr (Sums::has_own_increment)
+              row_increment += weight(0, a) * Motion::load(values + Fields::increment);
+          }
+          plane += weight(1, b) * row;
+          plane_gradient[0] += weight(1, b) * row_gradient;
+          plane_gradient[1] += slope(1, b) * row;
+          if constexpr (gathers_B)
+          {
+            plane_moment[0] += weight(1, b) * row_moment;
+            plane_moment[1] += lever(1, b) * row;
+          }
+          if constexpr (Sums::has_own_increment)
+            plane_increment += weight(1, b) * row_increment;
+        }
+        if constexpr (dim == 2)
+        {
+          value = plane;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            gradient[d] = plane_gradient[d];
+            moment[d]   = plane_moment[d];
+          }
+        }
+        else
+        {
+          value += weight(dim - 1, c) * plane;
+          gradient[0] += weight(dim - 1, c) * plane_gradient[0];
+          gradient[1] += weight(dim - 1, c) * plane_gradient[1];
+          gradient[2] += slope(dim - 1, c) * plane;
+          if constexpr (gathers_B)
+          {
+            moment[0] += weight(dim - 1, c) * plane_moment[0];
+            moment[1] += weight(dim - 1, c) * plane_moment[1];
+            moment[2] += lever(dim - 1, c) * plane;
+          }
+          if constexpr (Sums::has_own_increment)
+            increment += weight(dim - 1, c) * plane_increment;
+        }
+      }
+      sums.value[l] = value;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        sums.gradient[d][l] = gradient[d];
+        if constexpr (gathers_B)
+          sums.moment[d][l] = moment[d];
+      }
+      if constexpr (Sums::has_own_increment)
+        sums.increment[l] = increment;
+    }
+
+    static void gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil, const unsigned int l,
+                            const Fields &fields, Sums &sums)
+    {
+      Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int node) {
+        const double *values = fields[node];
+        const Motion  v      = Motion::load(values + Fields::velocity);
+        const double  phi    = stencil.value[i].data()[l];
+        value += phi * v;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          gradient[d] += stencil.gradient[d][i].data()[l] * v;
+          if constexpr (Scheme::gathers_B)
+            moment[d] += (phi * stencil.offset[d][k[d]].data()[l]) * v;
+        }
+        if constexpr (Sums::has_own_increment)
+          increment += phi * Motion::load(values + Fields::increment);
+      });
+      sums.value[l] = value;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        sums.gradient[d][l] = gradient[d];
+        if constexpr (Scheme::gathers_B)
+          sums.moment[d][l] = moment[d];
+      }
+      if constexpr (Sums::has_own_increment)
+        sums.increment[l] = increment;
+    }
+  };
+} // namespace Talus

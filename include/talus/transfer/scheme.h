@@ -1,0 +1,64 @@
+#pragma once
+
+#include <talus/particles/batch_access.h>
+#include <talus/particles/working_set.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace Talus
+{
+  /** The arrays that transfers read and write. */
+  template <int dim>
+  struct TransferArrays
+  {
+    explicit TransferArrays(WorkingSet<dim> &particles) :
+      position(particles.template components<dim>(particles.position)),
+      velocity(particles.template components<dim>(particles.velocity)),
+      grad_v(particles.template components<dim * dim>(particles.grad_v)),
+      stress(particles.template components<WorkingSet<dim>::n_stress>(particles.stress)),
+      mass(particles.component(particles.mass, 0)), volume(particles.component(particles.volume, 0))
+    {
+    }
+
+    std::array<double *, dim>                       position, velocity;
+    std::array<double *, dim * dim>                 grad_v;
+    std::array<double *, WorkingSet<dim>::n_stress> stress;
+    double                                         *mass, *volume;
+    std::array<double *, dim * dim>                 B{}; // the affine moment, where a scheme stores it
+  };
+
+  /** What particles gather from their nodes; `B` and `increment` only where the scheme asks for them. */
+  template <int dim, typename Number>
+  struct Gathered
+  {
+    dealii::Tensor<1, dim, Number> velocity;  // sum phi v^{n+1}, Eq. (23)
+    dealii::Tensor<1, dim, Number> increment; // sum phi (v^{n+1} - v^n) = dt sum phi a, after the conditions
+    dealii::Tensor<2, dim, Number> grad_v;    // sum v^{n+1} (x) grad phi, Eq. (26)
+    dealii::Tensor<2, dim, Number> B;         // sum phi v^{n+1} (x) (x_i - x_p), Eq. (25)
+  };
+
+  /**
+   * How the schemes that scatter v_p + C_p (x_i - x_p), Eqs. (15)-(19), and gather
+   * once differ. What is here holds unless a scheme says otherwise; its functions
+   * are templates on the batch, one particle or several.
+   */
+  template <int dim>
+  struct Scheme
+  {
+    static constexpr bool is_affine         = false; // C_p is not zero: affine() gives it [1/time]
+    static constexpr bool needs_D           = false; // affine() reads D, Eq. (18)
+    static constexpr bool gathers_B         = false;
+    static constexpr bool gathers_increment = false;
+
+    void                   add_parameters(dealii::ParameterAcceptor &) {}
+    void                   add_fields(WorkingSet<dim> &) {}
+    void                   bind(WorkingSet<dim> &, TransferArrays<dim> &) const {} // sets arrays of own fields
+    dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &, const unsigned int) const { return {}; }
+
+    /** Sets own fields from grad v and D before the first step. */
+    void initialize(const TransferArrays<dim> &, const SingleBatch &, const dealii::SymmetricTensor<2, dim> &) const {}
+
+    // template <class Batch>
+    // void update(arrays, batch, gathered) const: the new velocity and what the scheme stores.
+  };
+} // namespace Talus

@@ -1,0 +1,162 @@
+#include <talus/core/batch.h>
+#include <talus/core/tensors.h>
+#include <talus/core/transpose.h>
+
+#include "../check.h"
+
+#include <limits>
+#include <type_traits>
+
+using namespace Talus;
+using namespace Test;
+
+namespace
+{
+  const double numbers[16] = {1.5, -2.25, 0., 3., 1e10, -1e-10, 7., 0.1, -1., 5., 2., 2., 8., -3.5, 4., 0.6};
+
+  template <int width>
+  void at_width()
+  {
+    using Number           = Simd<width>;
+    const std::string name = "width " + std::to_string(width) + ": ";
+    const Number      a = Number::load(numbers), b = Number::load(numbers + 8);
+
+    const auto lanes = [&](const std::string &what, const Number &value, const auto &expected, const double bound) {
+      double error = 0;
+      for (int l = 0; l < width; ++l)
+      {
+        const double e = expected(numbers[l], numbers[8 + l]);
+        error          = std::max(error, std::abs(value[l] - e) / std::max(1., std::abs(e)));
+      }
+      check(name + what, error, bound);
+    };
+    // Contracted to one instruction or not, a b + c is correct to one unit in the last place of its terms.
+    const double ulp = std::numeric_limits<double>::epsilon();
+    lanes(
+      "a + b", a + b, [](double x, double y) { return x + y; }, 1e-300);
+    lanes(
+      "a - 2", a - 2., [](double x, double) { return x - 2; }, 1e-300);
+    lanes(
+      "3 a", 3. * a, [](double x, double) { return 3 * x; }, 1e-300);
+    lanes(
+      "a / b", a / b, [](double x, double y) { return x / y; }, 1e-300);
+    lanes(
+      "-a", -a, [](double x, double) { return -x; }, 1e-300);
+    lanes(
+      "a b + a", a * b + a, [](double x, double y) { return x * y + x; }, 2 * ulp);
+    lanes(
+      "min", min(a, b), [](double x, double y) { return std::min(x, y); }, 1e-300);
+    lanes(
+      "max", max(a, b), [](double x, double y) { return std::max(x, y); }, 1e-300);
+    lanes(
+      "abs", abs(a), [](double x, double) { return std::abs(x); }, 1e-300);
+    lanes(
+      "sqrt", sqrt(abs(a)), [](double x, double) { return std::sqrt(std::abs(x)); }, 1e-300);
+    // The C library's vector functions promise four units in the last place.
+    lanes(
+      "log", log(abs(a) + 1e-20), [](double x, double) { return std::log(std::abs(x) + 1e-20); }, 4 * ulp);
+    lanes(
+      "exp", exp(b), [](double, double y) { return std::exp(y); }, 4 * ulp);
+    lanes(
+      "select", select(a < b, a, b), [](double x, double y) { return x < y ? x : y; }, 1e-300);
+    lanes(
+      "select of and, or, not", select(((a < b) & (a > Number(0.))) | !(b >= Number(0.)), a, b),
+      [](double x, double y) { return (x < y && x > 0) || !(y >= 0) ? x : y; }, 1e-300);
+
+    int          index[width], wanted[width];
+    const double steps[8] = {1.5, -0.25, -1., 0., 7.999, -3.0001, 2., -0.999};
+    const Number whole    = floor(Number::load(steps), index);
+    double       wrong    = 0;
+    for (int l = 0; l < width; ++l)
+      wrong += (whole[l] != std::floor(steps[l])) + (index[l] != static_cast<int>(std::floor(steps[l])));
+    check(name + "floor", wrong, 0.5);
+
+    for (int l = 0; l < width; ++l)
+      wanted[l] = (3 * l + 5) % 16;
+    const Number gathered = Number::gather(numbers, wanted);
+    for (int l = 0; l < width; ++l)
+      wrong += gathered[l] != numbers[wanted[l]] || lane(gathered, l) != gathered.data()[l];
+    check(name + "gather, lanes", wrong, 0.5);
+
+    Number with_nan = a;
+    with_nan.set(width - 1, std::numeric_limits<double>::quiet_NaN());
+    check_true(name + "NaN fails comparisons", any(!(with_nan <= Number(1e300))) && !any(!(a <= Number(1e300))));
+    check_true(name + "any", any(a > Number(1.)) && !any(a > Number(1e11)));
+
+    if constexpr (width > 1 && width <= native_width)
+    {
+      double matrix[64], error = 0;
+      for (int i = 0; i < 64; ++i)
+        matrix[i] = i;
+      Number  rows[8], four[4];
+      Simd<8> columns[width];
+      Simd<4> vectors[width];
+      for (int i = 0; i < 8; ++i)
+        rows[i] = Number::load(matrix + i * width);
+      lanes_to_vectors<width>(rows, columns);
+      for (int l = 0; l < width; ++l)
+      {
+        for (int i = 0; i < 8; ++i)
+          error += columns[l][i] != matrix[i * width + l];
+        vectors[l] = Simd<4>::load(matrix + 4 * l);
+      }
+      vectors_to_lanes<width>(vectors, four);
+      for (int l = 0; l < width; ++l)
+        for (int i = 0; i < 4; ++i)
+          error += four[i][l] != matrix[4 * l + i];
+      check(name + "transposes", error, 0.5);
+    }
+
+    // deal.II's tensors of these numbers are one tensor a lane.
+    dealii::Tensor<2, 3, Number> A;
+    dealii::Tensor<2, 3>         A_last;
+    for (int i = 0; i < 9; ++i)
+    {
+      A[i / 3][i % 3]      = Number::load(numbers + i % 8);
+      A_last[i / 3][i % 3] = numbers[i % 8 + width - 1];
+    }
+    check(name + "determinant of a tensor", (determinant(A)[width - 1] - determinant(A_last)) / 1e21, 1e-14);
+    check(name + "product of tensors",
+          ((A * transpose(A))[1][2][width - 1] - (A_last * transpose(A_last))[1][2]) / 1e21, 1e-14);
+  }
+} // namespace
+
+void simd()
+{
+  at_width<1>();
+  at_width<2>();
+  at_width<4>();
+  at_width<8>();
+}
+
+/** Batches cover a range once, and what lies beyond it stays as it was. */
+void batches()
+{
+  constexpr unsigned int size = 40;
+  for (const unsigned int begin : {0u, 3u})
+    for (unsigned int end = begin; end < 30; ++end)
+    {
+      double       column[size], sum = 0, expected = 0;
+      unsigned int n = 0;
+      for (unsigned int p = 0; p < size; ++p)
+        column[p] = p;
+      for_each_batch(begin, end, [&](const auto batch) {
+        const auto value = batch.load(column);
+        n += batch.size();
+        const auto used = batch.used_lanes(value);
+        for (int l = 0; l < used.n_lanes; ++l)
+          sum += used[l];
+        batch.store(column, value + 100.);
+      });
+      double wrong = n != end - begin;
+      for (unsigned int p = 0; p < size; ++p)
+      {
+        const bool is_in = p >= begin && p < end;
+        wrong += column[p] != p + (is_in ? 100. : 0.);
+        expected += is_in ? p : 0;
+      }
+      if (wrong + std::abs(sum - expected) > 0)
+        check("particles " + std::to_string(begin) + " to " + std::to_string(end), wrong + sum - expected, 0.5);
+    }
+  check_true("all ranges", Test::n_failed == 0);
+}
