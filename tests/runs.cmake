@@ -54,3 +54,11 @@ foreach(ranks 1 2)
   talus_add_run(regression.shear.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/shear.py
     $<TARGET_FILE:talus> ${shear} ${work}/regression/shear.${ranks} ${ranks} ${MPIRUN})
 endforeach()
+
+# Friction, damping and loads against closed forms.
+foreach(case incline_2d incline_3d damping)
+  foreach(ranks 1 2)
+    talus_add_run(loads.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/loads/run.py
+      $<TARGET_FILE:talus> ${work}/loads/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()

@@ -15,6 +15,11 @@ namespace Talus
                   Patterns::List(Patterns::Double(), 0, dim));
     add_parameter("Upper corner", upper, "With 'Lower corner': all nodes in this box [length].", prm,
                   Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Start time", start_time,
+                  "The condition acts in steps that end after this time [time]; empty: from the start of the run.", prm,
+                  Patterns::List(Patterns::Double(), 0, 1));
+    add_parameter("End time", end_time, "It acts in steps that end by this time [time]; empty: to the end of the run.",
+                  prm, Patterns::List(Patterns::Double(), 0, 1));
   }
 
   template <int dim>
@@ -26,6 +31,9 @@ namespace Talus
     if (boundary_ids.empty() && lower.empty())
       throw EntryError(get_section_name(), "Boundary ids",
                        "the condition acts nowhere. Give boundary ids or the corners of a box of nodes.");
+    if (!start_time.empty() && !end_time.empty() && !(end_time[0] > start_time[0]))
+      throw EntryError(get_section_name(), "End time",
+                       "the condition never acts. Give a time after the start time, or nothing for no end.");
   }
 
   template <int dim>
@@ -51,12 +59,16 @@ namespace Talus
   }
 
   template <int dim>
-  void Condition<dim>::apply(const double time, const double dt, Grid<dim> &grid)
+  void Condition<dim>::apply(const double time, const double dt, Grid<dim> &grid, LocalDamping<dim> &damping)
   {
-    this->dt = dt;
-    reaction = 0;
-    work     = 0;
-    prescribe(time, grid);
+    this->dt      = dt;
+    this->grid    = &grid;
+    this->damping = &damping;
+    reaction      = 0;
+    work          = 0;
+    // A step belongs to the interval in which it ends: intervals that follow each other do not overlap.
+    if ((start_time.empty() || time > start_time[0]) && (end_time.empty() || time <= end_time[0]))
+      prescribe(time, grid);
   }
 
   template class Condition<2>;

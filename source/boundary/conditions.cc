@@ -41,7 +41,7 @@ namespace Talus
               v = velocity.value(grid.node_position(i), time);
             for (unsigned int d = 0; d < dim; ++d)
               if (is_prescribed[d])
-                this->set(grid.fields[i], d, v[d]);
+                this->set(i, d, v[d]);
           }
       }
 
@@ -58,12 +58,12 @@ namespace Talus
       using Condition<dim>::Condition;
 
     private:
-      void prescribe(const double, Grid<dim> &grid) override
+      void prescribe(const double, Grid<dim> &) override
       {
         for (const auto &list : this->nodes)
           for (const unsigned int i : list)
             for (unsigned int d = 0; d < dim; ++d)
-              this->set(grid.fields[i], d, 0.);
+              this->set(i, d, 0.);
       }
     };
 
@@ -83,16 +83,80 @@ namespace Talus
       }
 
     private:
-      void prescribe(const double, Grid<dim> &grid) override
+      void prescribe(const double, Grid<dim> &) override
       {
         for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
           for (const unsigned int i : this->nodes[f])
-            this->set(grid.fields[i], this->boundary_ids[f] / 2, 0.);
+            this->set(i, this->boundary_ids[f] / 2, 0.);
       }
+    };
+
+    /**
+     * Coulomb friction on faces of the grid's box. A node that presses against a face loses the normal part of its
+     * velocity relative to the wall, and of the tangential part at most mu times as much:
+     * @f[ \Delta v_t = -\min(\mu \, \Delta v_n, |v_t|) \, v_t / |v_t| . @f]
+     * One that moves away is free. Test: tests/boundary/main.cc, tests/loads (a block on an incline).
+     */
+    template <int dim>
+    class Friction : public Condition<dim>
+    {
+    public:
+      explicit Friction(const std::string &section) : Condition<dim>(section), wall_text(dim == 2 ? "0; 0" : "0; 0; 0")
+      {
+        this->add_parameter("Friction coefficient", mu, "Greatest tangential over normal force, mu [1].", this->prm,
+                            Patterns::Double());
+        this->add_parameter("Wall velocity", wall_text,
+                            "Velocity of the wall [length/time]: functions of x, y, z, t, separated by ';'.");
+      }
+
+      void parse_parameters(ParameterHandler &prm) override
+      {
+        Condition<dim>::parse_parameters(prm);
+        wall.initialize(wall_text, this->get_section_name(), "Wall velocity");
+        if (this->boundary_ids.empty())
+          throw EntryError(this->get_section_name(), "Boundary ids",
+                           "friction needs the faces whose normals press. A box of nodes has none.");
+        if (!(mu >= 0))
+          throw EntryError(this->get_section_name(), "Friction coefficient",
+                           "it must not be negative; 0 is a wall without friction.");
+      }
+
+    private:
+      void prescribe(const double time, Grid<dim> &grid) override
+      {
+        using Fields          = NodalFields<dim>;
+        Tensor<1, dim> v_wall = wall.value({}, time);
+        for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        {
+          const unsigned int axis    = this->boundary_ids[f] / 2;
+          const double       outward = this->boundary_ids[f] % 2 == 0 ? -1 : 1;
+          for (const unsigned int i : this->nodes[f])
+          {
+            if (wall.depends_on_space())
+              v_wall = wall.value(grid.node_position(i), time);
+            Tensor<1, dim> slip;
+            for (unsigned int d = 0; d < dim; ++d)
+              slip[d] = grid.fields[i][Fields::velocity + d] - v_wall[d];
+            const double approach = outward * slip[axis];
+            if (!(approach > 0))
+              continue;
+            slip[axis]         = 0;
+            const double speed = slip.norm();
+            slip *= speed > mu * approach ? 1 - mu * approach / speed : 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              this->set(i, d, v_wall[d] + slip[d]);
+          }
+        }
+      }
+
+      ParsedVector<dim> wall;
+      std::string       wall_text;
+      double            mu = 0;
     };
 
     const RegisterDimensions<Condition, Velocity> velocity("velocity", "velocity as a function of place and time");
     const RegisterDimensions<Condition, NoSlip>   no_slip("no-slip", "nodes are fixed");
     const RegisterDimensions<Condition, Slip>     slip("slip", "no motion along the normal of a face");
+    const RegisterDimensions<Condition, Friction> friction("friction", "Coulomb friction on a face, free to lift off");
   } // namespace
 } // namespace Talus

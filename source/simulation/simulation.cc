@@ -63,6 +63,9 @@ namespace Talus
                   Patterns::Integer(0));
     add_parameter("Body force", acceleration_text,
                   "Force per mass [length/time^2], for instance gravity: functions of x, y, z, t, separated by ';'.");
+    add_parameter("Local damping", boundary.damping.factor,
+                  "Share alpha of each nodal force that opposes the motion, for quasi-static work [1]; 0: none.", prm,
+                  Patterns::Double());
   }
 
   template <int dim>
@@ -73,6 +76,9 @@ namespace Talus
       throw EntryError(get_section_name(), "End time", "it must be positive.");
     if (!(courant_number > 0))
       throw EntryError(get_section_name(), "Courant number", "it must be positive; 0.5 is a safe choice.");
+    if (!(boundary.damping.factor >= 0 && boundary.damping.factor < 1))
+      throw EntryError(get_section_name(), "Local damping",
+                       "it must lie between 0 and 1, 1 excluded; 0.7 comes to rest soon.");
   }
 
   template <int dim>

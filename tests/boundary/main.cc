@@ -121,6 +121,102 @@ void order()
   check("reaction", setup.boundary.conditions[1]->reaction[0] - reaction_of_last, 1e-11);
 }
 
+/**
+ * Coulomb friction on two opposite faces and on one, with walls that move. The reference keeps of the relative
+ * velocity what the cone of half angle atan(mu) about the normal allows: |t| over the normal change is at most mu.
+ */
+template <int dim>
+void friction()
+{
+  for (const double mu : {0., 0.4, 9.})
+    compare<dim>("mu = " + std::to_string(mu),
+                 set("Type", "friction") + set("Boundary ids", "0, 1") +
+                   set("Friction coefficient", std::to_string(mu)) +
+                   set("Wall velocity", dim == 2 ? "0.1*t - 0.2*x; 0.3" : "0.1*t - 0.2*x; 0.3; 1"),
+                 [mu](const Point<dim> &x, const unsigned int d, double &v) {
+                   if (!is(x[0], 0) && !is(x[0], 1))
+                     return false;
+                   const double   wall[] = {0.07 - 0.2 * x[0], 0.3, 1};
+                   Tensor<1, dim> slip;
+                   for (unsigned int e = 0; e < dim; ++e)
+                     slip[e] = 0.5 + e - x[(e + 1) % dim] - wall[e];
+                   const double normal = slip[0];
+                   slip[0]             = 0;
+                   if (is(x[0], 0) ? normal >= 0 : normal <= 0)
+                     return false;
+                   const double reach = mu * std::abs(normal);
+                   if (d == 0 || slip.norm() <= reach)
+                     v = wall[d];
+                   else
+                     v -= reach * slip[d] / slip.norm();
+                   return true;
+                 });
+}
+
+/** A condition acts in the steps that end after its start and by its end. */
+template <int dim>
+void interval()
+{
+  const std::string where = set("Type", "no-slip") + set("Boundary ids", "2");
+  Setup<dim>        setup(section("Grid", set("Spacing", "0.25")) +
+                          conditions("one", section("one", where + set("Start time", "1") + set("End time", "2"))));
+  for (const double time : {0.9, 1., 1.1, 2., 2.1})
+  {
+    move(setup, time, 0.1);
+    const bool acts  = time > 1 && time <= 2;
+    double     error = 0, impulse = 0;
+    for (const unsigned int i : setup.grid.nodes_on_boundary(2))
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        raise(error, setup.grid.fields[i][NodalFields<dim>::velocity + d] - (acts ? 0 : trial(setup, i, d)));
+        impulse += acts && d == 0 ? mass(setup, i) * trial(setup, i, d) : 0;
+      }
+    check("t = " + std::to_string(time) + ": velocity", error, 1e-15);
+    check("t = " + std::to_string(time) + ": reaction", setup.boundary.conditions[0]->reaction[0] - impulse / 0.1,
+          1e-11);
+  }
+}
+
+/**
+ * Damping against f_i - alpha |f_i| sign(v_i^n), with the force of move(), dt f = 0.25 m. The nodes of a slip face
+ * are damped along the face alone, and the reaction is that of the undamped force.
+ */
+template <int dim>
+void damping()
+{
+  const double alpha = 0.7, dt = 0.1;
+  Setup<dim>   setup(section("Grid", set("Spacing", "0.25")) +
+                     conditions("one", section("one", set("Type", "slip") + set("Boundary ids", "2"))));
+  setup.boundary.damping.factor = alpha;
+  move(setup, 0, dt);
+  double error = 0, work = 0, reaction = 0;
+  bool   has_both_signs[2] = {false, false};
+  for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double *node   = setup.grid.fields[i];
+      const double  before = trial(setup, i, d) - 0.25, force = mass(setup, i) * 0.25 / dt;
+      const double  damped = force - alpha * std::abs(force) * (before > 0 ? 1. : before < 0 ? -1. : 0.);
+      double        v      = before + dt * damped / mass(setup, i);
+      if (d == 1 && is(setup.grid.node_position(i)[1], 0))
+      {
+        v = 0;
+        reaction += mass(setup, i) * trial(setup, i, d) / dt;
+      }
+      else
+      {
+        work += dt * (damped - force) * v;
+        has_both_signs[before > 0] = true;
+      }
+      raise(error, node[NodalFields<dim>::velocity + d] - v);
+      raise(error, node[NodalFields<dim>::increment + d] - (v - before));
+    }
+  check("velocity and increment", error, 1e-14);
+  check("work", setup.boundary.damping.work - work, 1e-12);
+  check("reaction", setup.boundary.conditions[0]->reaction[1] - reaction, 1e-11);
+  check_true("velocities of both signs", has_both_signs[0] && has_both_signs[1]);
+}
+
 template <int dim>
 void boundary_errors()
 {
@@ -141,6 +237,14 @@ void boundary_errors()
         set("Type", "no-slip") + set("Lower corner", coordinates<dim>({{0.1, 0.1, 0.1}})) +
           set("Upper corner", coordinates<dim>({{0.2, 0.2, 0.2}})),
         "Lower corner", "no node of the grid");
+  error("friction in a box",
+        set("Type", "friction") + set("Lower corner", coordinates<dim>({{0, 0, 0}})) +
+          set("Upper corner", coordinates<dim>({{1, 1, 1}})),
+        "Boundary ids", "friction needs the faces");
+  error("negative friction", set("Type", "friction") + set("Boundary ids", "0") + set("Friction coefficient", "-1"),
+        "Friction coefficient", "must not be negative");
+  error("no interval", set("Boundary ids", "0") + set("Start time", "2") + set("End time", "1"), "End time",
+        "never acts");
   error("bad expression", set("Type", "velocity") + set("Boundary ids", "0") + set("Velocity", "1"), "Velocity",
         "expressions");
 }
@@ -152,6 +256,12 @@ int main(int argc, char **argv)
               {"kinds 3D", kinds<3>},
               {"order 2D", order<2>},
               {"order 3D", order<3>},
+              {"friction 2D", friction<2>},
+              {"friction 3D", friction<3>},
+              {"interval 2D", interval<2>},
+              {"interval 3D", interval<3>},
+              {"damping 2D", damping<2>},
+              {"damping 3D", damping<3>},
               {"errors 2D", boundary_errors<2>},
               {"errors 3D", boundary_errors<3>}});
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/grid/grid.h>
+#include <talus/boundary/damping.h>
 
 namespace Talus
 {
@@ -17,8 +17,11 @@ namespace Talus
     /** Finds the nodes; throws EntryError where the region is wrong or holds none. Collective. */
     virtual void attach(const Grid<dim> &grid);
 
-    /** Changes the velocities of this rank's nodes at the end of the step. */
-    void apply(const double time, const double dt, Grid<dim> &grid);
+    /**
+     * Changes the velocities of this rank's nodes at the end of the step, if its interval contains `time`. What it
+     * sets is not damped.
+     */
+    void apply(const double time, const double dt, Grid<dim> &grid, LocalDamping<dim> &damping);
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
@@ -31,15 +34,17 @@ namespace Talus
     virtual void prescribe(const double time, Grid<dim> &grid) = 0;
 
     /** Sets a component of a node's velocity and records what it costs. */
-    void set(double *node, const unsigned int component, const double velocity)
+    void set(const unsigned int i, const unsigned int component, const double velocity)
     {
       using Fields         = NodalFields<dim>;
+      double      *node    = grid->fields[i];
       const double change  = velocity - node[Fields::velocity + component];
       const double impulse = -node[Fields::mass] * change;
       reaction[component] += impulse / dt;
       work -= impulse * velocity;
       node[Fields::velocity + component] = velocity;
       node[Fields::increment + component] += change;
+      damping->hold(i, component);
     }
 
     std::vector<unsigned int>              boundary_ids;
@@ -47,21 +52,27 @@ namespace Talus
 
   private:
     std::vector<double> lower, upper;
-    double              dt = 0;
+    std::vector<double> start_time, end_time; // one number or none
+    double              dt      = 0;
+    Grid<dim>          *grid    = nullptr;
+    LocalDamping<dim>  *damping = nullptr;
   };
 
-  /** The conditions of a run, applied in the order of the list. */
+  /** The conditions of a run, applied in the order of the list, and the damping of what they leave free. */
   template <int dim>
   class Boundary
   {
   public:
     void apply(const double time, const double dt, Grid<dim> &grid)
     {
+      damping.begin(grid);
       for (auto &condition : conditions)
-        condition->apply(time, dt, grid);
+        condition->apply(time, dt, grid, damping);
+      damping.apply(grid);
     }
 
     std::vector<std::string>                     names;
     std::vector<std::unique_ptr<Condition<dim>>> conditions;
+    LocalDamping<dim>                            damping;
   };
 } // namespace Talus

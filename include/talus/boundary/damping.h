@@ -1,0 +1,44 @@
+#pragma once
+
+#include <talus/grid/grid.h>
+
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * Local damping for quasi-static work, Cundall (1987): each component of a node's force is changed by
+   * @f[ -\alpha |f_i| \, \mathrm{sign}(v_i^n) , @f]
+   * so that a motion loses the same share of its energy in each period whatever its frequency, and nothing is left of
+   * it in equilibrium. Components that a condition has set in this step are not damped: their force is a reaction.
+   * Test: tests/boundary/main.cc, tests/loads (decay of a bar).
+   */
+  template <int dim>
+  class LocalDamping
+  {
+  public:
+    double factor = 0; // alpha [1], 0 <= alpha < 1; 0: none, at no cost
+    double work   = 0; // on the body in the last step [energy]
+
+    /** Forgets what was held in the last step. */
+    void begin(const Grid<dim> &grid)
+    {
+      work = 0;
+      if (factor > 0)
+        is_held.assign(grid.fields.n_owned() * dim, false);
+    }
+
+    /** This component's velocity is prescribed. */
+    void hold(const unsigned int i, const unsigned int component)
+    {
+      if (factor > 0)
+        is_held[i * dim + component] = true;
+    }
+
+    /** Damps the velocities of this rank's nodes, after the conditions. */
+    void apply(Grid<dim> &grid);
+
+  private:
+    std::vector<char> is_held;
+  };
+} // namespace Talus
