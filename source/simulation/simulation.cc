@@ -253,6 +253,9 @@ namespace Talus
     if (now.has_failed)
       report_failure(model, step, time, dt);
     energy.check(model, now, step, time, dt);
+    if (step % energy.interval == 0 || is_finished())
+      energy.check_total(model, now, totals(particles, *transfer, materials, communicator).strain_energy, step, time,
+                         dt);
   }
 
   template class Simulation<2>;

@@ -199,27 +199,37 @@ namespace Talus
 
   namespace
   {
-    /** The fastest of all particles, its speed and place. Collective. */
-    template <int dim>
-    std::string describe_fastest(const Model<dim> &model)
+    /** The particle for which `value` is greatest: number, place, and `value` under its name. Collective. */
+    template <int dim, class Value>
+    std::string describe_greatest(const Model<dim> &model, const std::string &name, const Value &value)
     {
-      const Particles<dim>          &particles = model.particles;
-      std::pair<double, std::string> fastest(-1., "");
-      for (unsigned int p = 0; p < particles.size(); ++p)
-      {
-        double squares = 0;
-        for (unsigned int d = 0; d < dim; ++d)
-          squares += std::pow(particles.component(particles.velocity, d)[p], 2);
-        if (squares <= fastest.first)
-          continue;
-        std::ostringstream text;
-        text << "particle " << particles.id[p] << " at " << to_text(particles.vector(particles.position, p))
-             << " with speed " << std::sqrt(squares);
-        fastest = {squares, text.str()};
-      }
-      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, fastest))
-        fastest = std::max(fastest, other);
-      return fastest.second;
+      const Particles<dim> &particles = model.particles;
+      double                greatest  = -1;
+      unsigned int          which     = particles.none;
+      for (unsigned int m = 0; m + 1 < particles.material_begin.size(); ++m)
+        for (unsigned int p = particles.material_begin[m]; p < particles.material_begin[m + 1]; ++p)
+          if (const double v = value(*model.materials[m], p); v > greatest)
+          {
+            greatest = v;
+            which    = p;
+          }
+      std::ostringstream text;
+      if (which != particles.none)
+        text << "particle " << particles.id[which] << " at " << to_text(particles.vector(particles.position, which))
+             << " with " << name << " " << greatest;
+      std::pair<double, std::string> first(greatest, text.str());
+      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
+        first = std::max(first, other);
+      return first.second;
+    }
+
+    template <int dim>
+    double strain_energy(const WorkingSet<dim> &particles, const Material &material, const unsigned int p)
+    {
+      SymmetricTensor<2, 3> stress;
+      for (unsigned int c = 0; c < particles.n_stress; ++c)
+        stress.access_raw_entry(c) = particles.component(particles.stress, c)[p];
+      return particles.component(particles.volume, 0)[p] * material.strain_energy_density(stress);
     }
   } // namespace
 
@@ -238,16 +248,43 @@ namespace Talus
     body_force_work += dt * survey.body_force_power;
     for (const double work : survey.works)
       condition_work += work;
+    compare("kinetic energy", survey.kinetic_energy, step, time, dt, [&] {
+      const auto speed = [&](const Material &, const unsigned int p) {
+        return model.particles.vector(model.particles.velocity, p).norm();
+      };
+      return "Fastest is " + describe_greatest(model, "speed", speed);
+    });
+  }
+
+  template <int dim>
+  void EnergyWatch<dim>::check_total(const Model<dim> &model, const Survey<dim> &survey, const double strain_energy,
+                                     const unsigned int step, const double time, const double dt) const
+  {
+    compare("kinetic and elastic energy", survey.kinetic_energy + strain_energy, step, time, dt, [&] {
+      const auto energy = [&](const Material &material, const unsigned int p) {
+        const auto &particles = model.particles;
+        return 0.5 * particles.component(particles.mass, 0)[p] *
+                 particles.vector(particles.velocity, p).norm_square() +
+               Talus::strain_energy(particles, material, p);
+      };
+      return "Most of it has " + describe_greatest(model, "energy", energy);
+    });
+  }
+
+  template <int dim>
+  void EnergyWatch<dim>::compare(const std::string &name, const double energy, const unsigned int step,
+                                 const double time, const double dt,
+                                 const std::function<std::string()> &culprit) const
+  {
     const double available = initial_energy + body_force_work + condition_work;
-    if (survey.kinetic_energy > 2 * std::max(available, 0.) + floor)
-    {
-      std::ostringstream message;
-      message << "The kinetic energy " << survey.kinetic_energy << " in step " << step << ", t = " << time
-              << ", dt = " << dt << " is more than twice the " << available
-              << " that initial state, body force and conditions account for: the run is unstable. Fastest is "
-              << describe_fastest(model) << ". Lower the Courant number, or correct the kernels near the boundary.";
-      throw RunError(message.str());
-    }
+    if (energy <= 2 * std::max(available, 0.) + floor)
+      return;
+    std::ostringstream message;
+    message << "The " << name << " " << energy << " in step " << step << ", t = " << time << ", dt = " << dt
+            << " is more than twice the " << available
+            << " that initial state, body force and conditions account for: the run is unstable. " << culprit()
+            << ". Lower the Courant number, or correct the kernels near the boundary.";
+    throw RunError(message.str());
   }
 
 #define INSTANTIATE(dim)                                                                                               \

@@ -66,6 +66,10 @@ SHEAR = ["SHEAR", "--set", "Grid/Lower corner = -0.55, 0", "--set", "Grid/Upper 
 DIVERGED = [r"(Particle \d+ |The kinetic energy )", r"step \d+", r"t = [-+.e\d]+", r"dt = [-+.e\d]+",
             r"at \([-.e\d]+, [-.e\d]+\)", "Lower the Courant number"]
 
+EDGES = [argument.replace("Courant number = 5", "Courant number = 1.01") for argument in SHEAR[:-4]] + [
+    "--set", "Transfer/Type = FLIP", "--set"]
+ENERGY = DIVERGED[1:] + ["The kinetic and elastic energy .* is more than twice the", r"Most of it has particle \d+ at"]
+
 
 def wrong_entry(name, old, new, entry, *message):
     return Case(name, [(old, new)], [r"FILE:LINE: ", f"entry '{entry}'", *message])
@@ -188,6 +192,9 @@ CASES = {
              SHEAR + ["--set", "Kernel/Boundary treatment = Steffen", "--set", "Transfer/Type = APIC"],
              output="output"),
         Case("Courant number 5, FLIP", [], DIVERGED, 2, SHEAR + ["--set", "Transfer/Type = FLIP"], output="output"),
+        # A free edge at the limit of stability: the stress diverges, the kinetic energy stays below its own bound.
+        Case("elastic energy, on the way", [], ENERGY + [r"in step \d00,"], 2, EDGES + ["Run/End time = 0.0525"]),
+        Case("elastic energy, at the end", [], ENERGY + ["in step 594,"], 2, EDGES + ["Run/Number of steps = 594"]),
         Case("particle leaves the grid", [("set Velocity = 1; 0", "set Velocity = 100; 0")],
              [r"Particle \d+ left the grid, at \(2[.\d]*, 0[.\d]*\) in step \d+, t = 0\.00\d+, dt = ",
               "Enlarge the grid"], 2, ["case.prm"] + EACH_STEP, output="output"),
