@@ -1,7 +1,5 @@
 #include <talus/postprocess/grid_output.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 namespace Talus
 {
   using namespace dealii;
@@ -13,17 +11,14 @@ namespace Talus
     const std::vector<std::string> names = {"mass", "velocity_x", "velocity_y", "velocity_z"};
     const unsigned int lanes[]           = {Fields::mass, Fields::velocity, Fields::velocity + 1, Fields::velocity + 2};
 
-    const IndexSet &owned = grid.dof_handler.locally_owned_dofs();
-    IndexSet        relevant;
-    DoFTools::extract_locally_relevant_dofs(grid.dof_handler, relevant);
+    // deal.II copies the owned values into vectors of its own and fetches those of other ranks' nodes itself.
     std::vector<LinearAlgebra::distributed::Vector<double>> vectors(1 + dim);
     this->attach_dof_handler(grid.dof_handler);
     for (unsigned int c = 0; c < vectors.size(); ++c)
     {
-      vectors[c].reinit(owned, relevant, grid.communicator);
+      vectors[c].reinit(grid.dof_handler.locally_owned_dofs(), grid.communicator);
       for (unsigned int i = 0; i < grid.fields.n_owned(); ++i)
         vectors[c].local_element(i) = grid.fields[i][lanes[c]];
-      vectors[c].update_ghost_values();
       this->add_data_vector(vectors[c], names[c]);
     }
     this->build_patches();

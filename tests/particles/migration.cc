@@ -116,6 +116,29 @@ void synchronise()
 }
 
 /**
+ * A particle far beyond the ghost cells of its rank, where relocate() would have called long before: deal.II drops it,
+ * and the run ends on all ranks instead of going on without it. One rank alone finds every particle.
+ */
+template <int dim>
+void lost()
+{
+  Setup<dim> setup(text<dim>("quadratic B-spline"));
+  auto      &set = setup.particles;
+  const auto n   = std::to_string(set.n_global);
+  for (unsigned int p = 0; p < set.size(); ++p)
+    if (set.id[p] == 0) // at the left end
+      set.component(set.position, 0)[p] = 0.95;
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    check_error<RunError>("lost between ranks", {"lost between ranks", std::to_string(set.n_global - 1) + " of " + n},
+                          [&] { set.synchronise(); });
+  else
+  {
+    set.synchronise();
+    check_true("kept on one rank", set.size() == set.n_global && is_canonical(setup));
+  }
+}
+
+/**
  * How far a particle may go beyond its rank's cells: as far as the rank knows its nodes, which are those of the
  * neighbouring cells: h/2 for linear (before deal.II could lose a particle beyond the ghost cells), h/2 for quadratic
  * and uGIMP (its stencil of three), 0 for cubic.
@@ -174,5 +197,6 @@ void outside()
   template void name<2>();                                                                                             \
   template void name<3>();
 INSTANTIATE(synchronise)
+INSTANTIATE(lost)
 INSTANTIATE(drift)
 INSTANTIATE(outside)

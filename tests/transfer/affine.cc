@@ -73,8 +73,8 @@ void affine_at_walls()
     for (const auto &kernel : kernels)
       for (const std::string treatment : {"WLS", "WLS separable", "WLS everywhere", "MLS"})
       {
-        if (dim == 3 && treatment != "WLS" && kernel != "quadratic B-spline")
-          continue; // the combinations of 2D again would take too long
+        if (dim == 3 && treatment != "WLS" && kernel == "linear")
+          continue; // no node is ever missing: all treatments are alike
         Setup<dim> setup(full_box<dim>(kernel, treatment, transfer));
         check(transfer + ", " + kernel + ", " + treatment + ": near walls", affine_error(setup), 1e-12);
 
