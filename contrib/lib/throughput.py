@@ -1,5 +1,9 @@
-"""Times one parameter file: the run of 2N steps minus that of N steps, so that set-up and the final output cancel."""
+"""Nanoseconds per particle per step of the whole program: the run of 2N steps minus that of N, so that set-up cancels.
+
+Without a file it times a table of kernels, transfers and materials on an elastic block under gravity, alternating."""
 import argparse
+import csv
+import dataclasses
 import os
 import pathlib
 import re
@@ -9,25 +13,66 @@ import sys
 import tempfile
 import time
 
+import numpy as np
 import runs
 
 # Nothing is written while steps are timed; the last step's row is in both runs.
 SILENT = {"Output/Final state": "false", "Output/Time interval": 0, "Output/Step interval": 0,
           "Output/Statistics interval": 2147483647, "Output/Overwrite": "true"}
 
+KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP"}
+TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC"}
+TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none"}
+MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic"},
+             "mises": {"Type": "von Mises"}, "dp": {"Type": "Drucker-Prager"}, "fluid": {"Type": "Newtonian fluid"}}
+TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
+         "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
+         "quadratic-tpic-everywhere-neo"]
+FILES = {2: ("prm/elastic_block.prm", 100), 3: ("prm/elastic_block_3d.prm", 15)}
 
-def timed_run(arguments, settings, n_steps):
-    """Wall and processor time [s], and the number of particles."""
+
+@dataclasses.dataclass
+class Row:
+    name: str
+    dim: int
+    prm: str
+    steps: int
+    settings: dict
+    wall: list = dataclasses.field(default_factory=list)
+    processor: list = dataclasses.field(default_factory=list)
+    particles: int = 0
+    bytes_per_particle: float = 0
+    peak_bytes: float = 0
+    phases: dict = dataclasses.field(default_factory=dict)
+
+
+def table_row(name, dim, steps):
+    """The row called KERNEL-TRANSFER-TREATMENT-MATERIAL."""
+    parts = name.split("-")
+    if len(parts) != 4 or any(part not in choices for part, choices in
+                              zip(parts, (KERNELS, TRANSFERS, TREATMENTS, MATERIALS))):
+        runs.stop(f"there is no row '{name}'. It is KERNEL-TRANSFER-TREATMENT-MATERIAL of\n  "
+                  + "\n  ".join(", ".join(choices) for choices in (KERNELS, TRANSFERS, TREATMENTS, MATERIALS)))
+    kernel, transfer, treatment, material = parts
+    prm, default_steps = FILES[dim]
+    settings = {"Kernel/Type": KERNELS[kernel], "Kernel/Boundary treatment": TREATMENTS[treatment],
+                "Transfer/Type": TRANSFERS[transfer]}
+    settings.update({f"Materials/soil/{entry}": value for entry, value in MATERIALS[material].items()})
+    return Row(name, dim, prm, steps or default_steps, settings)
+
+
+def timed_run(row, settings, n_steps, ranks):
+    """Wall and processor time [s] of one run; notes what the program says of itself."""
     start = time.perf_counter()
     process = subprocess.Popen(
-        runs.command(arguments.prm, {**settings, "Run/Number of steps": n_steps}, arguments.ranks), text=True,
-        env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        runs.command(row.prm, {**row.settings, **settings, "Run/Number of steps": n_steps}, ranks), text=True,
+        cwd=runs.ROOT, env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
     wall = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        runs.stop(f"the run of {n_steps} steps failed:\n{output[-2000:]}")
+        runs.stop(f"the run '{row.name}' of {n_steps} steps failed:\n{output[-2000:]}")
     particles = re.search(r"^ *particles +(\d+)", output, re.M)
     taken = re.findall(r"step (\d+), time", output)
     if particles is None or not taken:
@@ -35,63 +80,123 @@ def timed_run(arguments, settings, n_steps):
     if int(taken[-1]) != n_steps:
         runs.stop(f"the run ended after {taken[-1]} steps instead of {n_steps}, at its end time. "
                   "Give a smaller --steps, or --set \"Run/End time = ...\".")
-    return wall, usage.ru_utime + usage.ru_stime, int(particles[1])
+    row.particles = int(particles[1])
+    memory = re.search(r"bytes per particle: (\S+) now, (\S+) at most", output)
+    if memory:
+        row.bytes_per_particle, row.peak_bytes = float(memory[1]), float(memory[2])
+    row.phases = {name.strip(): float(share) for name, share in
+                  re.findall(r"^  (\S.*?) +[\d.]+ s +([\d.]+) %$", output, re.M)}
+    return wall, usage.ru_utime + usage.ru_stime
 
 
-def measure(arguments, settings):
-    wall, processor = [], []
+def measure(rows, arguments, settings):
     for repeat in range(arguments.repeats):
-        # Both in turn, so that a machine that slows down does so for both.
-        short = timed_run(arguments, settings, arguments.steps)
-        long = timed_run(arguments, settings, 2 * arguments.steps)
-        work = arguments.steps * long[2]
-        wall.append(1e9 * (long[0] - short[0]) / work)
-        processor.append(1e9 * (long[1] - short[1]) / work)
-        print(f"  repeat {repeat + 1} of {arguments.repeats}: {wall[-1]:.1f} ns wall, "
-              f"{processor[-1]:.1f} ns processor", flush=True)
-    return wall, processor, long[2]
+        # All rows in turn, and long and short runs in turn, so that a machine that slows down does so for all.
+        for row in rows:
+            short = timed_run(row, settings, row.steps, arguments.ranks)
+            long = timed_run(row, settings, 2 * row.steps, arguments.ranks)
+            work = row.steps * row.particles
+            row.wall.append(1e9 * (long[0] - short[0]) / work)
+            row.processor.append(1e9 * (long[1] - short[1]) / work)
+            if not arguments.csv:
+                print(f"  repeat {repeat + 1} of {arguments.repeats}, {row.name} {row.dim}D: {row.wall[-1]:.1f} ns "
+                      f"wall, {row.processor[-1]:.1f} ns processor", flush=True)
+
+
+def bandwidth():
+    """Bytes per second that one core moves: the sum of two long vectors into a third, the best of a few."""
+    n = 8_000_000
+    a, b, c = np.ones(n), np.ones(n), np.zeros(n)
+    best = 0.
+    for _ in range(5):
+        start = time.perf_counter()
+        np.add(a, b, out=c)
+        best = max(best, 4 * 8 * n / (time.perf_counter() - start))  # c is read before it is written
+    return best
+
+
+def traffic(dim):
+    """Bytes of a particle that a step of TPIC and an elastic law cannot avoid to move: each field once a pass."""
+    stress, tensor = (4, 4) if dim == 2 else (6, 9)
+    scattered = 2 * dim + tensor + stress + 2           # x, v, grad v, stress, m, V
+    read = dim + tensor + stress + 2                    # x, F, stress, m, V
+    written = 2 * dim + 2 * tensor + stress + 1         # x, v, grad v, F, stress, V
+    allocated = dim + tensor                            # v, grad v are overwritten, but fetched first
+    return 8 * (scattered + read + written + allocated)
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="contrib/throughput", description=__doc__)
-    parser.add_argument("prm", type=pathlib.Path, metavar="FILE.prm")
-    parser.add_argument("--steps", type=int, default=100, metavar="N", help="N (%(default)s)")
+    parser.add_argument("prm", type=pathlib.Path, nargs="?", metavar="FILE.prm", help="this file instead of the table")
+    parser.add_argument("--rows", help="rows of the table, with commas; KERNEL-TRANSFER-TREATMENT-MATERIAL; all: "
+                        + ", ".join(TABLE))
+    parser.add_argument("--dim", type=int, choices=(2, 3), help="this dimension of the table alone")
+    parser.add_argument("--steps", type=int, default=0, metavar="N", help="N (100, in 3D 15)")
     parser.add_argument("--repeats", type=int, default=5, help="repeats, of which the median counts (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (%(default)s)")
+    parser.add_argument("--csv", action="store_true",
+                        help="print name,dim,ranks,particles,ns_median,ns_min,ns_max,bytes_per_particle and no more")
     parser.add_argument("--set", action="append", default=[], metavar='"Section/Entry = value"', help="as for talus")
     arguments = parser.parse_args()
-    if not arguments.prm.is_file():
+    if arguments.prm and not arguments.prm.is_file():
         parser.error(f"there is no file '{arguments.prm}'.")
-    if min(arguments.steps, arguments.repeats, arguments.ranks) < 1:
+    if arguments.prm and arguments.rows:
+        parser.error("give a file or rows of the table, not both.")
+    if arguments.steps < 0 or min(arguments.repeats, arguments.ranks) < 1:
         parser.error("--steps, --repeats and --ranks must be positive.")
     if any("=" not in text for text in arguments.set):
         parser.error('--set expects "Section/Entry = value".')
     return arguments
 
 
-def summary(name, values):
-    return (f"{name:15} {statistics.median(values):8.1f} ns per particle per step "
-            f"({min(values):.1f} to {max(values):.1f})")
+def choose_rows(arguments):
+    if arguments.prm:
+        text = arguments.prm.read_text()
+        dim = int((re.search(r"^\s*set\s+Dimension\s*=\s*(\d)", text, re.M) or [None, "2"])[1])
+        return [Row(arguments.prm.stem, dim, str(arguments.prm.resolve()), arguments.steps or FILES[dim][1], {})]
+    names = TABLE if arguments.rows in (None, "all") else arguments.rows.split(",")
+    return [table_row(name, dim, arguments.steps) for name in names for dim in (2, 3)
+            if arguments.dim in (None, dim)]
+
+
+def report(rows, arguments):
+    print(f"\n{'row':32} dim   ns median    min    max  processor   B/particle   peak   ns by bandwidth")
+    speed = bandwidth()
+    for row in rows:
+        print(f"{row.name:32} {row.dim}D   {statistics.median(row.wall):9.1f} {min(row.wall):6.1f} {max(row.wall):6.1f}"
+              f" {statistics.median(row.processor):10.1f} {row.bytes_per_particle:12.0f} {row.peak_bytes:6.0f}"
+              f" {1e9 * traffic(row.dim) / speed:17.1f}")
+    print(f"\nMedian of {arguments.repeats}, {arguments.ranks} rank(s). One core moves {speed / 1e9:.1f} GB/s.")
+    print("Shares of the longer run's wall time [%]:")
+    for row in rows:
+        print(f"  {row.name} {row.dim}D: " + ", ".join(f"{name} {share:.0f}" for name, share in row.phases.items()
+                                                     if name != "total" and share >= 0.5))
+    if any(max(row.wall) - min(row.wall) > 0.2 * statistics.median(row.wall) for row in rows):
+        print("The repeats differ by more than a fifth: the machine is busy, or the runs are too short (--steps).")
 
 
 def main():
     arguments = parse_arguments()
+    rows = choose_rows(arguments)
     cache = runs.TALUS.parent / "CMakeCache.txt"
     if "CMAKE_BUILD_TYPE:STRING=Release" not in cache.read_text():
-        print("Warning: this is not a Release build.")
+        print("Warning: this is not a Release build.", file=sys.stderr)
     with tempfile.TemporaryDirectory() as directory:
         settings = {**SILENT, "Output/Directory": directory}
         for text in arguments.set:
             entry, value = text.split("=", 1)
             settings[entry.strip()] = value.strip()
-        print(f"{arguments.prm}: {2 * arguments.steps} minus {arguments.steps} steps, {arguments.ranks} rank(s), "
-              f"load of the machine before: {os.getloadavg()[0]:.1f}", flush=True)
-        wall, processor, n_particles = measure(arguments, settings)
-    print(f"{n_particles} particles, median of {arguments.repeats} and range:")
-    print(summary("wall time", wall))
-    print(summary("processor time", processor) + ", all ranks together" * (arguments.ranks > 1))
-    if max(wall) - min(wall) > 0.2 * statistics.median(wall):
-        print("The repeats differ by more than a fifth: the machine is busy, or the runs are too short (--steps).")
+        if not arguments.csv:
+            print(f"2N minus N steps, {arguments.ranks} rank(s), load of the machine before: {os.getloadavg()[0]:.1f}",
+                  flush=True)
+        measure(rows, arguments, settings)
+    if arguments.csv:
+        writer = csv.writer(sys.stdout)
+        for row in rows:
+            writer.writerow([row.name, row.dim, arguments.ranks, row.particles, f"{statistics.median(row.wall):.2f}",
+                             f"{min(row.wall):.2f}", f"{max(row.wall):.2f}", f"{row.bytes_per_particle:.0f}"])
+    else:
+        report(rows, arguments)
     return 0
 
 

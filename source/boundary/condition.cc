@@ -39,9 +39,9 @@ namespace Talus
   template <int dim>
   void Condition<dim>::attach(const Grid<dim> &grid)
   {
-    nodes.clear();
+    all_nodes.clear();
     for (const unsigned int id : boundary_ids)
-      nodes.push_back(grid.nodes_on_boundary(id));
+      all_nodes.push_back(grid.nodes_on_boundary(id));
     if (!lower.empty())
     {
       Point<dim> a, b;
@@ -50,12 +50,23 @@ namespace Talus
         a[d] = lower[d];
         b[d] = upper[d];
       }
-      nodes.push_back(grid.nodes_in_box(a, b));
-      if (Utilities::MPI::sum<unsigned int>(nodes.back().size(), grid.communicator) == 0)
+      all_nodes.push_back(grid.nodes_in_box(a, b));
+      if (Utilities::MPI::sum<unsigned int>(all_nodes.back().size(), grid.communicator) == 0)
         throw EntryError(get_section_name(), "Lower corner",
                          "no node of the grid lies in this box. Make it at least a spacing wide, "
                          "or move it so that it holds the nodes meant.");
     }
+    select(grid);
+  }
+
+  template <int dim>
+  void Condition<dim>::select(const Grid<dim> &grid)
+  {
+    nodes.assign(all_nodes.size(), {});
+    for (unsigned int list = 0; list < all_nodes.size(); ++list)
+      for (const unsigned int i : all_nodes[list])
+        if (grid.is_active[i])
+          nodes[list].push_back(i);
   }
 
   template <int dim>

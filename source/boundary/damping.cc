@@ -10,7 +10,7 @@ namespace Talus
     if (!(factor > 0))
       return;
     using Fields = NodalFields<dim>;
-    for (unsigned int i = 0; i < grid.fields.n_owned(); ++i)
+    for (const unsigned int i : grid.active_nodes)
     {
       double *node = grid.fields[i];
       for (unsigned int d = 0; d < dim; ++d)

@@ -200,8 +200,61 @@ namespace Talus
     for (unsigned int node = 0; node < node_index.size(); ++node)
       lattice.node[lattice.table_index(node_index[node])] = node;
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        lattice.cell[lattice.table_index(to_index(lattice, cell->center(), 0.))] = cell->active_cell_index();
+      if (!cell->is_artificial())
+      {
+        const int entry      = lattice.table_index(to_index(lattice, cell->center(), 0.));
+        lattice.owner[entry] = cell->subdomain_id();
+        if (cell->is_locally_owned())
+          lattice.cell[entry] = cell->active_cell_index();
+      }
+    is_active.assign(fields.n_local(), true);
+    collect_active_nodes();
+  }
+
+  template <int dim>
+  void Grid<dim>::collect_active_nodes()
+  {
+    active_nodes.clear();
+    active_copies.clear();
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+      if (is_active[i])
+        (i < fields.n_owned() ? active_nodes : active_copies).push_back(i);
+  }
+
+  template <int dim>
+  void Grid<dim>::activate(const std::vector<char> &first, const unsigned int n)
+  {
+    AssertDimension(first.size(), lattice.node.size());
+    // One axis after the other: true where an entry from i - n to i + 1 of this line is.
+    std::vector<char> reached = first;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const std::vector<char> before = reached;
+      const int               stride = lattice.stride[d], size = before.size();
+      for (int shift = -static_cast<int>(n); shift <= 1; ++shift)
+        // What wraps around an end of a line comes from the tables' padding, where no stencil begins far out.
+        for (int i = std::max(0, -shift * stride); i < size - std::max(0, shift * stride); ++i)
+          reached[i] |= before[i + shift * stride];
+    }
+
+    // Tell the owners what reaches into their nodes, and those who have copies what the owners know.
+    fields.clear();
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+      fields[i][0] = reached[lattice.table_index(node_index[i])];
+    fields.add_copies_to_owners();
+    fields.update_copies();
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+      is_active[i] = fields[i][0] > 0;
+    fields.clear();
+    collect_active_nodes();
+  }
+
+  template <int dim>
+  void Grid<dim>::clear()
+  {
+    for (const auto *nodes : {&active_nodes, &active_copies})
+      for (const unsigned int i : *nodes)
+        std::fill_n(fields[i], fields.stride, 0.);
   }
 
   template <int dim>
@@ -209,18 +262,21 @@ namespace Talus
   {
     using Fields  = NodalFields<dim>;
     lost_momentum = 0;
-    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+    for (const unsigned int i : active_nodes)
     {
       double      *values = fields[i];
       const double m      = values[Fields::mass];
       if (m > mass_floor)
+      {
+        const double inverse_m = 1 / m;
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double v                = values[Fields::momentum + d] / m;
-          const double dv               = dt * values[Fields::force + d] / m;
+          const double v                = values[Fields::momentum + d] * inverse_m;
+          const double dv               = dt * values[Fields::force + d] * inverse_m;
           values[Fields::velocity + d]  = v + dv;
           values[Fields::increment + d] = dv;
         }
+      }
       else
         // Empty nodes keep v = 0: dividing by m_i = 0 would spread NaN.
         for (unsigned int d = 0; d < dim; ++d)

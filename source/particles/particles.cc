@@ -2,6 +2,10 @@
 #include <talus/core/exceptions.h>
 #include <talus/particles/particles.h>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <limits>
 #include <sstream>
@@ -78,6 +82,17 @@ namespace Talus
     }
   } // namespace
 
+  namespace
+  {
+    /** The home's particles were many small pieces, which the C library would keep for later. */
+    void return_free_memory()
+    {
+#ifdef __GLIBC__
+      malloc_trim(0);
+#endif
+    }
+  } // namespace
+
   template <int dim>
   unsigned int Particles<dim>::count(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                                      const typename Grid<dim>::CellIterator &cell)
@@ -139,13 +154,12 @@ namespace Talus
   }
 
   template <int dim>
-  void Particles<dim>::set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift)
+  void Particles<dim>::set_stencil(Grid<dim> &grid, const unsigned int n, const double shift)
   {
-    // deal.II loses a particle beyond this rank's ghost cells, so one must be noticed well before: linear functions
-    // (n = 2), which could do with the ghost cell alone, keep the distance of the quadratic ones.
-    this->grid    = &grid;
-    coverage      = grid.lattice.coverage(std::max(n, 3u));
-    stencil_shift = n < 3 ? 0.5 : shift;
+    this->grid      = &grid;
+    coverage        = grid.lattice.coverage(n);
+    stencil_shift   = shift;
+    n_stencil_nodes = n;
 
     knows_all_stencils = Utilities::MPI::n_mpi_processes(grid.communicator) == 1;
   }
@@ -196,87 +210,194 @@ namespace Talus
   }
 
   template <int dim>
-  void Particles<dim>::synchronise()
+  unsigned int Particles<dim>::body_of(const types::particle_index id) const
   {
-    store();
-    home->sort_particles_into_subdomains_and_cells();
-    AssertThrow(home->n_global_particles() == n_global,
-                RunError("Particles were lost between ranks: " + std::to_string(home->n_global_particles()) + " of " +
-                         std::to_string(n_global) + " are left. Lower the Courant number."));
-    load();
-    needs_synchronise = false;
+    return std::upper_bound(body_begin.begin(), body_begin.end(), id) - body_begin.begin() - 1;
   }
 
   template <int dim>
-  void Particles<dim>::store()
+  std::vector<unsigned int> Particles<dim>::ranks_of(const std::vector<unsigned int> &particles) const
   {
-    std::vector<double> properties(this->n_columns());
-    const auto          x = this->template components<dim>(this->position);
-    unsigned int        k = 0;
-    for (auto &particle : *home)
+    std::vector<unsigned int> ranks(particles.size()), far;
+    std::vector<Point<dim>>   far_points;
+    for (unsigned int i = 0; i < particles.size(); ++i)
     {
-      const unsigned int p = slot[k++];
-      for (unsigned int c = 0; c < this->n_columns(); ++c)
-        properties[c] = this->column(c)[p];
-      double position[dim];
-      for (unsigned int d = 0; d < dim; ++d)
-        position[d] = x[d][p];
-      particle.set_location(inside_cell(grid->lattice, position));
-      particle.set_properties(make_array_view(properties));
+      const Point<dim> x(this->vector(this->position, particles[i]));
+      const auto       cell = cell_index(grid->lattice, &x[0]);
+      ranks[i] = grid->lattice.is_in_table(cell) ? grid->lattice.owner[grid->lattice.table_index(cell)] : none;
+      if (ranks[i] == none)
+      {
+        far.push_back(i);
+        far_points.push_back(inside_cell(grid->lattice, &x[0]));
+      }
     }
+    // Seldom: a particle has crossed all cells that this rank knows.
+    if (Utilities::MPI::max<unsigned int>(far.size(), grid->communicator) > 0)
+    {
+      const auto found = grid->triangulation.find_point_owner_rank(far_points);
+      for (unsigned int i = 0; i < far.size(); ++i)
+      {
+        AssertThrow(found[i] < Utilities::MPI::n_mpi_processes(grid->communicator),
+                    RunError("Particle " + std::to_string(this->id[particles[far[i]]]) + " at " +
+                             to_text<dim>(far_points[i]) +
+                             " was lost between ranks: no cell holds it. Lower the Courant number."));
+        ranks[far[i]] = found[i];
+      }
+    }
+    return ranks;
+  }
+
+  template <int dim>
+  void Particles<dim>::migrate()
+  {
+    needs_synchronise          = false;
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(grid->communicator);
+    if (Utilities::MPI::n_mpi_processes(grid->communicator) == 1)
+      return;
+    const auto &lattice = grid->lattice;
+    const auto  x       = this->template components<dim>(this->position);
+
+    std::vector<unsigned int> leavers;
+    for (unsigned int p = 0; p < this->size(); ++p)
+    {
+      typename Lattice<dim>::Index cell;
+      for (unsigned int d = 0; d < dim; ++d)
+        cell[d] = static_cast<int>(std::floor(lattice.coordinate(x[d][p], d)));
+      if (!lattice.is_in_table(cell) || lattice.owner[lattice.table_index(cell)] != my_rank)
+        leavers.push_back(p);
+    }
+    const auto ranks = ranks_of(leavers);
+
+    // A particle is its id and its columns.
+    const unsigned int                          n = 1 + this->n_columns();
+    std::map<unsigned int, std::vector<double>> messages;
+    for (unsigned int i = 0; i < leavers.size(); ++i)
+    {
+      auto &message = messages[ranks[i]];
+      message.push_back(this->id[leavers[i]]);
+      for (unsigned int c = 0; c < this->n_columns(); ++c)
+        message.push_back(this->column(c)[leavers[i]]);
+    }
+    std::vector<const double *> arrivals;
+    const auto                  received = Utilities::MPI::some_to_some(grid->communicator, messages);
+    for (const auto &[rank, message] : received)
+      for (unsigned int i = 0; i + n <= message.size(); i += n)
+        arrivals.push_back(&message[i]);
+    std::sort(arrivals.begin(), arrivals.end(), [](const double *a, const double *b) { return a[0] < b[0]; });
+
+    // Arrivals take the places of leavers; what is left over is at the end.
+    const unsigned int n_before = this->size(), n_filled = std::min(leavers.size(), arrivals.size());
+    if (arrivals.size() > leavers.size())
+      this->resize(n_before + arrivals.size() - leavers.size());
+    for (unsigned int i = 0; i < arrivals.size(); ++i)
+    {
+      const unsigned int p = i < n_filled ? leavers[i] : n_before + i - n_filled;
+      this->id[p]          = static_cast<types::particle_index>(arrivals[i][0]);
+      this->body[p]        = body_of(this->id[p]);
+      for (unsigned int c = 0; c < this->n_columns(); ++c)
+        this->column(c)[p] = arrivals[i][1 + c];
+    }
+    if (this->material_begin.size() > 2)
+    {
+      // Materials must stay together, so that places are not free to choose.
+      std::vector<bool> is_gone(this->size(), false);
+      for (unsigned int i = n_filled; i < leavers.size(); ++i)
+        is_gone[leavers[i]] = true;
+      sort(is_gone);
+      return;
+    }
+    for (unsigned int i = leavers.size(); i-- > n_filled;)
+    {
+      // From behind, so that what moves into the gap is not itself a leaver.
+      move(this->size() - 1, leavers[i]);
+      this->resize(this->size() - 1);
+    }
+    this->material_begin.back() = this->size();
+  }
+
+  template <int dim>
+  void Particles<dim>::move(const unsigned int from, const unsigned int to)
+  {
+    this->id[to]   = this->id[from];
+    this->body[to] = this->body[from];
+    for (unsigned int c = 0; c < this->n_columns(); ++c)
+      this->column(c)[to] = this->column(c)[from];
+  }
+
+  template <int dim>
+  void Particles<dim>::sort()
+  {
+    sort({});
+  }
+
+  template <int dim>
+  void Particles<dim>::sort(const std::vector<bool> &is_gone)
+  {
+    // Counting sort by material and cell; particles are few in each, and mostly in order.
+    const auto               &lattice = grid->lattice;
+    const unsigned int        n_cells = lattice.cell.size(), n_materials = this->material_begin.size() - 1;
+    const auto                x = this->template components<dim>(this->position);
+    std::vector<unsigned int> begin(static_cast<std::size_t>(n_materials) * n_cells + 1, 0), key(this->size());
+    for (unsigned int p = 0; p < this->size(); ++p)
+    {
+      if (!is_gone.empty() && is_gone[p])
+        continue;
+      typename Lattice<dim>::Index cell;
+      for (unsigned int d = 0; d < dim; ++d)
+        cell[d] = static_cast<int>(std::floor(lattice.coordinate(x[d][p], d)));
+      Assert(lattice.is_in_table(cell), ExcMessage("migrate() comes before sort()."));
+      key[p] = body_material[this->body[p]] * n_cells + lattice.table_index(cell);
+      ++begin[key[p] + 1];
+    }
+    for (unsigned int k = 0; k + 1 < begin.size(); ++k)
+      begin[k + 1] += begin[k];
+    std::vector<unsigned int> order(begin.back()), next(begin.begin(), begin.end() - 1);
+    for (unsigned int p = 0; p < this->size(); ++p)
+      if (is_gone.empty() || !is_gone[p])
+        order[next[key[p]]++] = p;
+    for (unsigned int k = 0; k + 1 < begin.size(); ++k)
+      std::sort(order.begin() + begin[k], order.begin() + begin[k + 1],
+                [&](const unsigned int a, const unsigned int b) { return this->id[a] < this->id[b]; });
+    for (unsigned int m = 0; m <= n_materials; ++m)
+      this->material_begin[m] = begin[m * n_cells];
+    this->permute(order);
+  }
+
+  template <int dim>
+  std::vector<char> Particles<dim>::stencil_beginnings() const
+  {
+    const auto       &lattice = grid->lattice;
+    const auto        x       = this->template components<dim>(this->position);
+    std::vector<char> begins(lattice.node.size(), 0);
+    for (unsigned int p = 0; p < this->size(); ++p)
+    {
+      typename Lattice<dim>::Index first;
+      for (unsigned int d = 0; d < dim; ++d)
+        first[d] = static_cast<int>(std::floor(lattice.coordinate(x[d][p], d) - stencil_shift));
+      begins[lattice.table_index(first)] = 1;
+    }
+    return begins;
   }
 
   template <int dim>
   void Particles<dim>::load()
   {
-    struct Entry
-    {
-      unsigned int          material;
-      std::uint64_t         cell;
-      types::particle_index id;
-      unsigned int          k; // number in the home's order
-      unsigned int          body;
-      const double         *properties;
-      bool                  operator<(const Entry &other) const
-      {
-        return std::tie(material, cell, id) < std::tie(other.material, other.cell, other.id);
-      }
-    };
-    std::vector<Entry> entries;
-    entries.reserve(home->n_locally_owned_particles());
-    const auto &lattice = grid->lattice;
+    const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
+    this->resize(home->n_locally_owned_particles());
+    this->material_begin.assign(n_materials + 1, 0);
+    unsigned int p = 0;
     for (auto &particle : *home)
     {
-      Entry entry;
-      entry.id         = particle.get_id();
-      entry.k          = entries.size();
-      entry.body       = std::upper_bound(body_begin.begin(), body_begin.end(), entry.id) - body_begin.begin() - 1;
-      entry.material   = body_material[entry.body];
-      entry.properties = particle.get_properties().data();
-      const auto cell  = cell_index(lattice, entry.properties + this->fields[this->position].first);
-      entry.cell       = 0;
-      for (int d = dim - 1; d >= 0; --d)
-        entry.cell = entry.cell * lattice.n_cells[d] + cell[d];
-      entries.push_back(entry);
-    }
-    std::sort(entries.begin(), entries.end());
-
-    this->resize(entries.size());
-    slot.resize(entries.size());
-    const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
-    this->material_begin.assign(n_materials + 1, 0);
-    for (unsigned int p = 0; p < entries.size(); ++p)
-    {
-      const Entry &entry = entries[p];
-      slot[entry.k]      = p;
-      this->id[p]        = entry.id;
-      this->body[p]      = entry.body;
-      ++this->material_begin[entry.material + 1];
+      this->id[p]           = particle.get_id();
+      this->body[p]         = body_of(this->id[p]);
+      const auto properties = particle.get_properties();
       for (unsigned int c = 0; c < this->n_columns(); ++c)
-        this->column(c)[p] = entry.properties[c];
+        this->column(c)[p] = properties[c];
+      ++p;
     }
-    for (unsigned int m = 0; m < n_materials; ++m)
-      this->material_begin[m + 1] += this->material_begin[m];
+    sort();
+    home->clear();
+    return_free_memory();
   }
 
   template class Particles<2>;

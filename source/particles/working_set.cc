@@ -47,6 +47,21 @@ namespace Talus
         columns[field.first + c].resize(n_particles, field.initial[c]);
   }
 
+  template <int dim>
+  void WorkingSet<dim>::permute(const std::vector<unsigned int> &order)
+  {
+    const auto reorder = [&](auto &values) {
+      std::decay_t<decltype(values)> ordered(order.size());
+      for (unsigned int i = 0; i < order.size(); ++i)
+        ordered[i] = values[order[i]];
+      values.swap(ordered);
+    };
+    reorder(id);
+    reorder(body);
+    for (auto &column : columns)
+      reorder(column);
+  }
+
   template class WorkingSet<2>;
   template class WorkingSet<3>;
 } // namespace Talus

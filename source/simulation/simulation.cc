@@ -10,12 +10,23 @@ namespace Talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Resident memory of this process, now and at most [byte]. */
+    std::pair<double, double> resident_memory()
+    {
+      Utilities::System::MemoryStats stats;
+      Utilities::System::get_memory_stats(stats);
+      return {1024. * stats.VmRSS, 1024. * stats.VmHWM};
+    }
+  } // namespace
+
   template <int dim>
   Simulation<dim>::Simulation(Parameters &parameters, MPI_Comm communicator) :
-    ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters), step_timing(timing),
-    set_up_section(timing.add("set-up")), synchronise_section(timing.add("synchronise")),
-    output_section(timing.add("output")), comparison_section(timing.add("finite element reference")),
-    grid("/Grid", communicator),
+    ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters),
+    memory_at_start(resident_memory().first), step_timing(timing), set_up_section(timing.add("set-up")),
+    upkeep_section(timing.add("upkeep")), output_section(timing.add("output")),
+    comparison_section(timing.add("finite element reference")), grid("/Grid", communicator),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -53,6 +64,10 @@ namespace Talus
       comparison->add_fields(particles);
     }
 
+    transfer->is_plain =
+      parameters.choose_from("/Run", "Loops", "batched", "batched|plain",
+                             "batched: many particles at a time; plain: one, the slow reference of the others.") ==
+      "plain";
     add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
     add_parameter("Courant number", courant_number, "Step size over its critical value, Eq. (37) [1].", prm,
                   Patterns::Double());
@@ -191,7 +206,21 @@ namespace Talus
       Timing::Scope scope(timing, output_section);
       output.write(time, step, particles, grid);
     }
-    say(timing.table());
+    say(timing.table() + "  " + std::to_string(upkeep.n_migrations) + " migrations between ranks, " +
+        std::to_string(upkeep.n_sorts) + " sorts\n" + memory());
+  }
+
+  template <int dim>
+  std::string Simulation<dim>::memory() const
+  {
+    const auto   here = resident_memory();
+    const double n    = particles.n_global;
+    const double now  = Utilities::MPI::sum(here.first - memory_at_start, communicator),
+                 most = Utilities::MPI::sum(here.second - memory_at_start, communicator);
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(0) << "  bytes per particle: " << now / n << " now, " << most / n
+         << " at most\n";
+    return text.str();
   }
 
   template <int dim>
@@ -240,10 +269,9 @@ namespace Talus
     const bool is_last = time + dt >= end_time * (1 - 1e-12);
     if (is_last)
       dt = end_time - time;
-    if (now.needs_synchronise)
     {
-      Timing::Scope scope(timing, synchronise_section);
-      particles.synchronise();
+      Timing::Scope scope(timing, upkeep_section);
+      upkeep.run(model, now);
     }
     now  = explicit_step(model, time, dt, step_timing);
     time = is_last ? end_time : time + dt;

@@ -199,37 +199,37 @@ namespace Talus
 
   namespace
   {
-    /** The particle for which `value` is greatest: number, place, and `value` under its name. Collective. */
-    template <int dim, class Value>
-    std::string describe_greatest(const Model<dim> &model, const std::string &name, const Value &value)
+    /** The particle for which values[p] is greatest: number, place, and the value under its name. Collective. */
+    template <int dim>
+    std::string describe_greatest(const Model<dim> &model, const std::string &name, const std::vector<double> &values)
     {
-      const Particles<dim> &particles = model.particles;
-      double                greatest  = -1;
-      unsigned int          which     = particles.none;
-      for (unsigned int m = 0; m + 1 < particles.material_begin.size(); ++m)
-        for (unsigned int p = particles.material_begin[m]; p < particles.material_begin[m + 1]; ++p)
-          if (const double v = value(*model.materials[m], p); v > greatest)
-          {
-            greatest = v;
-            which    = p;
-          }
-      std::ostringstream text;
-      if (which != particles.none)
-        text << "particle " << particles.id[which] << " at " << to_text(particles.vector(particles.position, which))
-             << " with " << name << " " << greatest;
-      std::pair<double, std::string> first(greatest, text.str());
-      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
-        first = std::max(first, other);
-      return first.second;
+      const Particles<dim>          &particles = model.particles;
+      std::pair<double, std::string> greatest(-1., "");
+      if (!values.empty())
+      {
+        const unsigned int p = std::max_element(values.begin(), values.end()) - values.begin();
+        std::ostringstream text;
+        text << "particle " << particles.id[p] << " at " << to_text(particles.vector(particles.position, p)) << " with "
+             << name << " " << values[p];
+        greatest = {values[p], text.str()};
+      }
+      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, greatest))
+        greatest = std::max(greatest, other);
+      return greatest.second;
     }
 
+    /** Elastic energy of each particle. */
     template <int dim>
-    double strain_energy(const WorkingSet<dim> &particles, const Material &material, const unsigned int p)
+    std::vector<double> strain_energies(const Model<dim> &model)
     {
-      SymmetricTensor<2, 3> stress;
-      for (unsigned int c = 0; c < particles.n_stress; ++c)
-        stress.access_raw_entry(c) = particles.component(particles.stress, c)[p];
-      return particles.component(particles.volume, 0)[p] * material.strain_energy_density(stress);
+      std::vector<double> energies(model.particles.size());
+      const double       *volume = model.particles.component(model.particles.volume, 0);
+      const auto          ranges = material_ranges(model.particles, model.materials, /* dt = */ 0.);
+      for (unsigned int m = 0; m < ranges.size(); ++m)
+        model.materials[m]->strain_energy_densities(ranges[m], energies.data() + ranges[m].begin);
+      for (unsigned int p = 0; p < energies.size(); ++p)
+        energies[p] *= volume[p];
+      return energies;
     }
   } // namespace
 
@@ -249,10 +249,10 @@ namespace Talus
     for (const double work : survey.works)
       condition_work += work;
     compare("kinetic energy", survey.kinetic_energy, step, time, dt, [&] {
-      const auto speed = [&](const Material &, const unsigned int p) {
-        return model.particles.vector(model.particles.velocity, p).norm();
-      };
-      return "Fastest is " + describe_greatest(model, "speed", speed);
+      std::vector<double> speeds(model.particles.size());
+      for (unsigned int p = 0; p < speeds.size(); ++p)
+        speeds[p] = model.particles.vector(model.particles.velocity, p).norm();
+      return "Fastest is " + describe_greatest(model, "speed", speeds);
     });
   }
 
@@ -261,20 +261,17 @@ namespace Talus
                                      const unsigned int step, const double time, const double dt) const
   {
     compare("kinetic and elastic energy", survey.kinetic_energy + strain_energy, step, time, dt, [&] {
-      const auto energy = [&](const Material &material, const unsigned int p) {
-        const auto &particles = model.particles;
-        return 0.5 * particles.component(particles.mass, 0)[p] *
-                 particles.vector(particles.velocity, p).norm_square() +
-               Talus::strain_energy(particles, material, p);
-      };
-      return "Most of it has " + describe_greatest(model, "energy", energy);
+      auto energies = strain_energies(model);
+      for (unsigned int p = 0; p < energies.size(); ++p)
+        energies[p] += 0.5 * model.particles.component(model.particles.mass, 0)[p] *
+                       model.particles.vector(model.particles.velocity, p).norm_square();
+      return "Most of it has " + describe_greatest(model, "energy", energies);
     });
   }
 
   template <int dim>
   void EnergyWatch<dim>::compare(const std::string &name, const double energy, const unsigned int step,
-                                 const double time, const double dt,
-                                 const std::function<std::string()> &culprit) const
+                                 const double time, const double dt, const std::function<std::string()> &culprit) const
   {
     const double available = initial_energy + body_force_work + condition_work;
     if (energy <= 2 * std::max(available, 0.) + floor)

@@ -10,7 +10,7 @@ The difference is that of a column's values over the column's largest magnitude,
 zero up to round-off has no magnitude of its own: below 1e-6 of the largest magnitude among the columns of its
 unit, which the header names in brackets, that one is its scale. Exact integers and the step size are compared alike.
 
-Every variant on several ranks must have sent particles from rank to rank: the log counts the synchronisations.
+Every variant on several ranks must have sent particles from rank to rank: the log counts the migrations.
 """
 import argparse
 import csv
@@ -34,11 +34,11 @@ def run(talus, prm, directory, mpirun, variant, settings):
     if result.returncode != 0:
         sys.exit(f"FAIL variant '{variant}': exit status {result.returncode}\n{result.stdout}")
     with open(os.path.join(directory, "log.txt")) as file:
-        synchronisations = re.search(r"\| synchronise +\| +(\d+) ", file.read())
-    n_synchronisations = int(synchronisations.group(1)) if synchronisations else 0
+        migrations = re.search(r"(\d+) migrations between ranks", file.read())
+    n_migrations = int(migrations.group(1)) if migrations else 0
     with open(os.path.join(directory, "statistics.csv")) as file:
         header, *rows = csv.reader(file)
-    return int(ranks), n_synchronisations, header, [[float(value) for value in row] for row in rows]
+    return int(ranks), n_migrations, header, [[float(value) for value in row] for row in rows]
 
 
 def scales(header, columns):
@@ -78,11 +78,11 @@ def main():
     first, n_failed = None, 0
     for number, variant in enumerate(arguments.variants):
         directory = os.path.join(arguments.work, str(number))
-        ranks, n_synchronisations, header, rows = run(arguments.talus, arguments.prm, directory, arguments.mpirun,
+        ranks, n_migrations, header, rows = run(arguments.talus, arguments.prm, directory, arguments.mpirun,
                                                       variant, arguments.set)
         problems = []
-        text = f"variant '{variant}': {len(rows)} rows, {n_synchronisations} synchronisations"
-        if ranks > 1 and n_synchronisations == 0:
+        text = f"variant '{variant}': {len(rows)} rows, {n_migrations} migrations"
+        if ranks > 1 and n_migrations == 0:
             problems.append("no particle has crossed the ranks' borders")
         if first is None:
             first = (header, list(zip(*rows)))

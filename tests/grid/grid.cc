@@ -233,6 +233,64 @@ void velocity_update()
     check("lost momentum " + std::to_string(d), s.grid.lost_momentum[d] - n_empty * (0.3 + d + 0.1 * (5. - d)), 1e-12);
 }
 
+/**
+ * Active are the nodes from one before to one after the stencils that begin at some places, whichever rank knows the
+ * place; clearing zeros those and the velocity update fills those, and no others.
+ */
+template <int dim>
+void activity()
+{
+  constexpr unsigned int n    = 3;
+  auto                   s    = setup<dim>();
+  auto                  &grid = s.grid;
+  using Index                 = typename Lattice<dim>::Index;
+  check("all are active at first", sum(grid.active_nodes.size()) - total_nodes<dim>(), 0.5);
+
+  // One place in the middle and one at the upper corner; only ranks that own a cell there say so.
+  std::vector<Index> places(2);
+  places[0].fill(1);
+  for (unsigned int d = 0; d < dim; ++d)
+    places[1][d] = cells[d] - 1;
+  std::vector<char> first(grid.lattice.node.size(), 0);
+  for (const Index &place : places)
+    if (grid.lattice.is_in_table(place) && grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing)
+      first[grid.lattice.table_index(place)] = 1;
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+    grid.fields[i][0] = 17;
+  grid.activate(first, n);
+
+  double wrong = 0;
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+  {
+    bool is_near = false;
+    for (const Index &place : places)
+    {
+      bool is_here = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_here =
+          is_here && grid.node_index[i][d] >= place[d] - 1 && grid.node_index[i][d] <= place[d] + static_cast<int>(n);
+      is_near = is_near || is_here;
+    }
+    const bool is_listed = std::binary_search(grid.active_nodes.begin(), grid.active_nodes.end(), i);
+    wrong += is_near != grid.is_active[i];
+    wrong += i < grid.fields.n_owned() && is_near != is_listed;
+    wrong += grid.fields[i][0] != 0;
+  }
+  check("active nodes", wrong, 0.5);
+
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+    for (unsigned int lane = 0; lane < grid.fields.stride; ++lane)
+      grid.fields[i][lane] = 2;
+  grid.update_velocity(0.5);
+  for (unsigned int i = 0; i < grid.fields.n_owned(); ++i)
+    wrong += grid.fields[i][NodalFields<dim>::velocity] != (grid.is_active[i] ? 1.5 : 2.);
+  check("velocity update", wrong, 0.5);
+  grid.clear();
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+    wrong += grid.fields[i][NodalFields<dim>::force] != (grid.is_active[i] ? 0. : 2.);
+  check("clear", wrong, 0.5);
+}
+
 template <int dim>
 void grid_errors()
 {
@@ -264,4 +322,5 @@ INSTANTIATE(boundary_nodes)
 INSTANTIATE(exchange)
 INSTANTIATE(coverage)
 INSTANTIATE(velocity_update)
+INSTANTIATE(activity)
 INSTANTIATE(grid_errors)

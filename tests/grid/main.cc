@@ -9,6 +9,7 @@ DECLARE(boundary_nodes)
 DECLARE(exchange)
 DECLARE(coverage)
 DECLARE(velocity_update)
+DECLARE(activity)
 DECLARE(grid_errors)
 
 int main(int argc, char **argv)
@@ -26,6 +27,8 @@ int main(int argc, char **argv)
                     {"coverage 3D", coverage<3>},
                     {"velocity update 2D", velocity_update<2>},
                     {"velocity update 3D", velocity_update<3>},
+                    {"activity 2D", activity<2>},
+                    {"activity 3D", activity<3>},
                     {"errors 2D", grid_errors<2>},
                     {"errors 3D", grid_errors<3>}});
 }

@@ -9,7 +9,7 @@ DECLARE(point_file)
 DECLARE(initial_state)
 DECLARE(body_errors)
 DECLARE(synchronise)
-DECLARE(lost)
+DECLARE(far_away)
 DECLARE(drift)
 DECLARE(outside)
 
@@ -28,8 +28,8 @@ int main(int argc, char **argv)
                     {"errors 3D", body_errors<3>},
                     {"synchronise 2D", synchronise<2>},
                     {"synchronise 3D", synchronise<3>},
-                    {"lost 2D", lost<2>},
-                    {"lost 3D", lost<3>},
+                    {"far away 2D", far_away<2>},
+                    {"far away 3D", far_away<3>},
                     {"drift 2D", drift<2>},
                     {"drift 3D", drift<3>},
                     {"outside 2D", outside<2>},

@@ -17,6 +17,9 @@ namespace Talus
     /** Finds the nodes; throws EntryError where the region is wrong or holds none. Collective. */
     virtual void attach(const Grid<dim> &grid);
 
+    /** Looks which of its nodes are active: the others have no material near, and are left alone. */
+    void select(const Grid<dim> &grid);
+
     /**
      * Changes the velocities of this rank's nodes at the end of the step, if its interval contains `time`. What it
      * sets is not damped.
@@ -48,14 +51,15 @@ namespace Talus
     }
 
     std::vector<unsigned int>              boundary_ids;
-    std::vector<std::vector<unsigned int>> nodes; // owned, of each boundary id; of the box in the last list
+    std::vector<std::vector<unsigned int>> nodes; // active, of each boundary id; of the box in the last list
 
   private:
-    std::vector<double> lower, upper;
-    std::vector<double> start_time, end_time; // one number or none
-    double              dt      = 0;
-    Grid<dim>          *grid    = nullptr;
-    LocalDamping<dim>  *damping = nullptr;
+    std::vector<std::vector<unsigned int>> all_nodes; // owned
+    std::vector<double>                    lower, upper;
+    std::vector<double>                    start_time, end_time; // one number or none
+    double                                 dt      = 0;
+    Grid<dim>                             *grid    = nullptr;
+    LocalDamping<dim>                     *damping = nullptr;
   };
 
   /** The conditions of a run, applied in the order of the list, and the damping of what they leave free. */
@@ -69,6 +73,12 @@ namespace Talus
       for (auto &condition : conditions)
         condition->apply(time, dt, grid, damping);
       damping.apply(grid);
+    }
+
+    void select(const Grid<dim> &grid)
+    {
+      for (auto &condition : conditions)
+        condition->select(grid);
     }
 
     std::vector<std::string>                     names;

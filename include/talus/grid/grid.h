@@ -33,10 +33,22 @@ namespace Talus
     /** Sets up the triangulation's extents alone; called by create(). */
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    void clear() { fields.clear(); }
+    /** Zeros the active nodes; the others are zero. */
+    void clear();
 
-    /** Eqs. (20)-(21): v_i += dt f_i / m_i where m_i > `mass_floor`; elsewhere v_i = 0. */
+    /** Eqs. (20)-(21) of the active nodes: v_i += dt f_i / m_i where m_i > `mass_floor`; elsewhere v_i = 0. */
     void update_velocity(const double dt);
+
+    /**
+     * Makes active what material may reach: all nodes i with `first` true at one of the lattice indices
+     * i - n .. i + 1 of every axis, on any rank: the stencils of n nodes and one node more on each side.
+     * Empty space then costs nothing. `first` is a table like those of the lattice. Collective.
+     */
+    void activate(const std::vector<char> &first, const unsigned int n);
+
+    /** Owned nodes that are active, in ascending order; at first all. */
+    std::vector<unsigned int> active_nodes;
+    std::vector<bool>         is_active; // of each local node
 
     dealii::Point<dim> node_position(const unsigned int node) const;
 
@@ -69,6 +81,10 @@ namespace Talus
     void create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight);
     void number_nodes();
     void fill_tables();
+
+    void collect_active_nodes();
+
+    std::vector<unsigned int> active_copies; // local nodes of other ranks that are active
 
     dealii::FE_Q<dim>         fe;
     std::vector<CellIterator> cells;

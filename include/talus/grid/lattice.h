@@ -29,8 +29,9 @@ namespace Talus
     // The tables' box: its first lattice index, its extent, and the step from one entry to the next.
     Index first, extent, stride;
 
-    std::vector<unsigned int> node; // local index of the node at a lattice index
-    std::vector<unsigned int> cell; // active cell index of the *owned* cell there
+    std::vector<unsigned int> node;  // local index of the node at a lattice index
+    std::vector<unsigned int> cell;  // active cell index of the *owned* cell there
+    std::vector<unsigned int> owner; // rank of the cell there, if this rank knows it
 
     /** Lattice coordinate of `x` along axis `d`: integer at nodes. */
     double coordinate(const double x, const unsigned int d) const { return (x - origin[d]) * inverse_h[d]; }
@@ -81,6 +82,7 @@ namespace Talus
       }
       node.assign(size, missing);
       cell.assign(size, missing);
+      owner.assign(size, missing);
     }
 
     /**

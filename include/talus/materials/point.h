@@ -91,8 +91,8 @@ namespace Talus
    * @f[ \Delta\omega \cdot \sigma - \sigma \cdot \Delta\omega . @f]
    */
   template <typename Number>
-  dealii::SymmetricTensor<2, 3, Number> jaumann_increment(const dealii::Tensor<2, 3, Number>          &grad_v_dt,
-                                                          const dealii::SymmetricTensor<2, 3, Number> &stress)
+  [[gnu::always_inline]] inline dealii::SymmetricTensor<2, 3, Number> jaumann_increment(
+    const dealii::Tensor<2, 3, Number> &grad_v_dt, const dealii::SymmetricTensor<2, 3, Number> &stress)
   {
     const Number xy = 0.5 * (grad_v_dt[0][1] - grad_v_dt[1][0]), xz = 0.5 * (grad_v_dt[0][2] - grad_v_dt[2][0]),
                  yz = 0.5 * (grad_v_dt[1][2] - grad_v_dt[2][1]);

@@ -10,9 +10,12 @@
 namespace Talus
 {
   /**
-   * All particles. deal.II's ParticleHandler is their *home*: there they are
-   * created, and from there they move to other ranks. The step runs on the
-   * *working set*. synchronise() is the one place where the two meet.
+   * All particles. deal.II's ParticleHandler is their *home*, in which they are
+   * created; the step runs on the *working set*, and between steps the home is
+   * empty, so that nothing is stored twice. Two things keep the working set in
+   * shape, each done when it is due and not in every step: migrate() sends those
+   * that have gone too far to the rank of their cell, and sort() restores the order
+   * of the cells, which keeps neighbours close in memory. synchronise() is both.
    */
   template <int dim>
   class Particles : public WorkingSet<dim>
@@ -34,7 +37,7 @@ namespace Talus
      * from floor(lattice coordinate - shift), and a rank keeps a particle as long
      * as it knows all of them.
      */
-    void set_stencil(const Grid<dim> &grid, const unsigned int n, const double shift);
+    void set_stencil(Grid<dim> &grid, const unsigned int n, const double shift);
 
     /**
      * Finds out whether the particles begin .. end - 1 can stay with this rank, and
@@ -52,8 +55,23 @@ namespace Talus
       relocate(0, this->size());
     }
 
-    /** Sends particles to the ranks that own their cells and restores the canonical order. Collective. */
-    void synchronise();
+    /** Sends the particles that lie in other ranks' cells there. Collective. */
+    void migrate();
+
+    /** Restores the canonical order: by material, cell and id. */
+    void sort();
+
+    /** Both: what the working set is then depends on nothing but where the particles are. Collective. */
+    void synchronise()
+    {
+      migrate();
+      sort();
+    }
+
+    /** For each entry of the lattice's tables, whether the stencil of a particle begins there. */
+    std::vector<char> stencil_beginnings() const;
+
+    unsigned int n_stencil_nodes = 3; // nodes per axis of a stencil
 
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
@@ -63,13 +81,22 @@ namespace Talus
     std::uint64_t n_global = 0;
 
   private:
-    void store(); // working set -> home
-    void load();  // home -> working set, in canonical order
+    void load(); // home -> working set
 
-    const Grid<dim>                                         *grid = nullptr;
+    unsigned int body_of(const dealii::types::particle_index id) const;
+
+    /** Ranks of the cells of some particles. Collective where this rank does not know a cell. */
+    std::vector<unsigned int> ranks_of(const std::vector<unsigned int> &particles) const;
+
+    /** Copies a particle's numbers to another place. */
+    void move(const unsigned int from, const unsigned int to);
+
+    /** Takes out what `is_gone` marks, if it marks anything, and sorts the others. */
+    void sort(const std::vector<bool> &is_gone);
+
+    Grid<dim>                                               *grid = nullptr;
     std::unique_ptr<dealii::MappingCartesian<dim>>           mapping;
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
-    std::vector<unsigned int>                                slot; // of each particle of the home, in its order
 
     std::vector<unsigned int> body_begin; // first id of each body
     std::vector<unsigned int> body_material;

@@ -36,6 +36,9 @@ namespace Talus
     unsigned int size() const { return id.size(); }
     void         resize(const unsigned int n_particles);
 
+    /** Puts particle order[i] at place i; particles that are not in `order` are dropped. */
+    void permute(const std::vector<unsigned int> &order);
+
     double       *column(const unsigned int c) { return columns[c].data(); }
     const double *column(const unsigned int c) const { return columns[c].data(); }
     double       *component(const unsigned int field, const unsigned int c) { return column(fields[field].first + c); }

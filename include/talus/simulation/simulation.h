@@ -7,6 +7,7 @@
 #include <talus/postprocess/progress.h>
 #include <talus/postprocess/statistics.h>
 #include <talus/steppers/explicit_step.h>
+#include <talus/steppers/upkeep.h>
 
 #include <fstream>
 #include <sstream>
@@ -38,12 +39,14 @@ namespace Talus
     /** Writes to the terminal and the log; rank 0. */
     void        say(const std::string &text);
     std::string summary() const;
+    std::string memory() const; // what a particle takes, the grid's and all other memory included; collective
 
     MPI_Comm           communicator;
     const Parameters  &parameters;
+    const double       memory_at_start; // resident memory of this rank, before anything is built [byte]
     Timing             timing;
     const StepTiming   step_timing;
-    const unsigned int set_up_section, synchronise_section, output_section, comparison_section;
+    const unsigned int set_up_section, upkeep_section, output_section, comparison_section;
     std::ofstream      log;
 
     Grid<dim>                               grid;
@@ -70,6 +73,7 @@ namespace Talus
     unsigned int           step = 0;
     Survey<dim>            now;
     EnergyWatch<dim>       energy;
+    Upkeep<dim>            upkeep;
     dealii::Tensor<1, dim> lost_momentum; // by empty nodes since the start [mass length/time]
   };
 } // namespace Talus

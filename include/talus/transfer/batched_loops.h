@@ -198,44 +198,45 @@ namespace Talus
       (Node::load(node) + value).store(node);
     }
 
+    /** Eqs. (13)-(19) of particle l. What it reads is read before it stores, so that nothing is read twice. */
     [[gnu::always_inline]] static void scatter_product(const Vectors &add, const Factors &factors,
                                                        const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                                        const unsigned int l, Fields &fields)
     {
-      const auto weight = [&](const unsigned int d, const unsigned int k) { return stencil.weight[d][k].data()[l]; };
-      const auto slope  = [&](const unsigned int d, const unsigned int k) {
+      const auto slope = [&](const unsigned int d, const unsigned int k) {
         return blend(is_affine ? factors.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
       };
+      const int           stride_y = lattice.stride[1], stride_z = lattice.stride[dim - 1];
       const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
+      double *const       data  = fields[0];
 
-      Node row[n]; // of the x axis
-      for (unsigned int a = 0; a < n; ++a)
-        row[a] = weight(0, a) * add.constant[l] + slope(0, a) * add.linear[0][l];
+      Node weight[dim][n], row[n], across[n]; // sums along x; what comes from y
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int k = 0; k < n; ++k)
+          weight[d][k] = stencil.weight[d][k].data()[l];
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        row[k]    = weight[0][k] * add.constant[l] + slope(0, k) * add.linear[0][l];
+        across[k] = slope(1, k) * add.linear[1][l];
+      }
       if constexpr (dim == 2)
         for (unsigned int b = 0; b < n; ++b)
-        {
-          const Node          across = slope(1, b) * add.linear[1][l];
-          const unsigned int *node   = nodes + b * lattice.stride[1];
           for (unsigned int a = 0; a < n; ++a)
-            add_to(fields[node[a]], weight(1, b) * row[a] + weight(0, a) * across);
-        }
+            add_to(data + Fields::stride * nodes[b * stride_y + a], weight[1][b] * row[a] + weight[0][a] * across[b]);
       else
       {
-        Node along[n];
-        for (unsigned int c = 0; c < n; ++c)
-          along[c] = slope(dim - 1, c) * add.linear[dim - 1][l];
+        Node along[n]; // from z
+        for (unsigned int k = 0; k < n; ++k)
+          along[k] = slope(dim - 1, k) * add.linear[dim - 1][l];
         for (unsigned int b = 0; b < n; ++b)
-        {
-          const Node across = slope(1, b) * add.linear[1][l];
           for (unsigned int a = 0; a < n; ++a)
           {
-            const Node          plane = weight(1, b) * row[a] + weight(0, a) * across;
-            const Node          both  = weight(0, a) * weight(1, b);
-            const unsigned int *node  = nodes + b * lattice.stride[1] + a;
+            const Node          plane = weight[1][b] * row[a] + weight[0][a] * across[b];
+            const Node          both  = weight[0][a] * weight[1][b];
+            const unsigned int *node  = nodes + b * stride_y + a;
             for (unsigned int c = 0; c < n; ++c)
-              add_to(fields[node[c * lattice.stride[dim - 1]]], weight(dim - 1, c) * plane + both * along[c]);
+              add_to(data + Fields::stride * node[c * stride_z], weight[dim - 1][c] * plane + both * along[c]);
           }
-        }
       }
     }
 
@@ -333,7 +334,9 @@ namespace Talus
         return Motion(factors.moment[d][k].data()[l]);
       };
       constexpr bool      gathers_B = Scheme::gathers_B;
-      const unsigned int *nodes     = lattice.node.data() + stencil.first_node[l];
+      const int           stride_y = lattice.stride[1], stride_z = lattice.stride[dim - 1];
+      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
+      const double *const data  = fields[0];
 
       Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
       for (unsigned int c = 0; c < (dim == 3 ? n : 1); ++c)
@@ -343,10 +346,10 @@ namespace Talus
         for (unsigned int b = 0; b < n; ++b)
         {
           Motion              row = 0., row_gradient = 0., row_moment = 0., row_increment = 0.;
-          const unsigned int *node = nodes + b * lattice.stride[1] + (dim == 3 ? c * lattice.stride[dim - 1] : 0);
+          const unsigned int *node = nodes + b * stride_y + (dim == 3 ? c * stride_z : 0);
           for (unsigned int a = 0; a < n; ++a)
           {
-            const double *values = fields[node[a]];
+            const double *values = data + Fields::stride * node[a];
             const Motion  v      = Motion::load(values + Fields::velocity);
             row += weight(0, a) * v;
             row_gradient += slope(0, a) * v;

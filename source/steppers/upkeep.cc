@@ -1,0 +1,34 @@
+#include <talus/steppers/upkeep.h>
+
+namespace Talus
+{
+  template <int dim>
+  void Upkeep<dim>::run(Model<dim> &model, const Survey<dim> &now)
+  {
+    since_sort += now.displacement;
+    since_activation += now.displacement;
+
+    if (now.needs_synchronise)
+    {
+      model.particles.migrate();
+      ++n_migrations;
+    }
+    // A stale order costs little for a few cells of drift, and a sort as much as a step or two.
+    if (since_sort > 2)
+    {
+      model.particles.sort();
+      since_sort = 0;
+      ++n_sorts;
+    }
+    // Active nodes reach one spacing beyond the stencils, whichever rank a particle is on.
+    if (since_activation > 1)
+    {
+      model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
+      model.boundary.select(model.grid);
+      since_activation = 0;
+    }
+  }
+
+  template class Upkeep<2>;
+  template class Upkeep<3>;
+} // namespace Talus
