@@ -215,10 +215,9 @@ namespace Talus
   void Grid<dim>::collect_active_nodes()
   {
     active_nodes.clear();
-    active_copies.clear();
-    for (unsigned int i = 0; i < fields.n_local(); ++i)
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
       if (is_active[i])
-        (i < fields.n_owned() ? active_nodes : active_copies).push_back(i);
+        active_nodes.push_back(i);
   }
 
   template <int dim>
@@ -252,9 +251,9 @@ namespace Talus
   template <int dim>
   void Grid<dim>::clear()
   {
-    for (const auto *nodes : {&active_nodes, &active_copies})
-      for (const unsigned int i : *nodes)
-        std::fill_n(fields[i], fields.stride, 0.);
+    for (const unsigned int i : active_nodes)
+      std::fill_n(fields[i], fields.stride, 0.);
+    fields.clear_copies();
   }
 
   template <int dim>

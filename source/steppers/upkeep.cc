@@ -20,8 +20,9 @@ namespace Talus
       since_sort = 0;
       ++n_sorts;
     }
-    // Active nodes reach one spacing beyond the stencils, whichever rank a particle is on.
-    if (since_activation > 1)
+    // Active nodes reach one spacing beyond the stencils, as far as the particle's rank knows them: who comes from
+    // another rank brings new ones.
+    if (since_activation > 1 || now.needs_synchronise)
     {
       model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
       model.boundary.select(model.grid);

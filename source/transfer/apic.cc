@@ -19,6 +19,8 @@ namespace Talus
     Tensor<2, dim> divide(const Tensor<2, dim> &B, const SymmetricTensor<2, dim> &D, const Tensor<2, dim> &grad_v,
                           const double smallest)
     {
+      if (D.norm() < smallest)
+        return grad_v;
       Tensor<2, dim> C;
       for (const auto &[eigenvalue, e] : eigenvectors(D))
         C += outer_product(eigenvalue < smallest ? grad_v * e : B * e / eigenvalue, e);
@@ -50,13 +52,13 @@ namespace Talus
 
       template <class Batch, typename Number = typename Batch::Number>
       Tensor<2, dim, Number> affine(const TransferArrays<dim> &arrays, const Batch &batch,
-                                    const SymmetricTensor<2, dim, Number> &D) const
+                                    const SymmetricTensor<2, dim, Number> &D, const double h) const
       {
-        const auto   moment = load_matrix<dim>(batch, arrays.B);
+        const double smallest = 1e-12 * h * h;
+        const auto   moment   = load_matrix<dim>(batch, arrays.B);
         const Number det = determinant(D), tr = trace(D);
-        // det / trace^(dim - 1) is a lower bound of the smallest eigenvalue of a positive definite D; the largest
-        // is at most the trace, which is of the order of h^2.
-        Number bound = 1e-12 * tr;
+        // det / trace^(dim - 1) is a lower bound of the smallest eigenvalue of a positive definite D.
+        Number bound = smallest;
         for (unsigned int d = 1; d < dim; ++d)
           bound *= tr;
         auto is_regular = det > bound;
@@ -74,7 +76,7 @@ namespace Talus
               SymmetricTensor<2, dim> D_p;
               for (unsigned int c = 0; c < D_p.n_independent_components; ++c)
                 D_p.access_raw_entry(c) = lane(D.access_raw_entry(c), l);
-              const auto C_p = divide(lane(moment, l), D_p, lane(grad_v, l), 1e-12 * trace(D_p));
+              const auto C_p = divide(lane(moment, l), D_p, lane(grad_v, l), smallest);
               for (unsigned int c = 0; c < dim * dim; ++c)
                 set_lane(C[c / dim][c % dim], l, C_p[c / dim][c % dim]);
             }

@@ -12,7 +12,7 @@ namespace Talus
       static constexpr bool is_affine = true;
 
       template <class Batch, class Moment>
-      auto affine(const TransferArrays<dim> &arrays, const Batch &batch, const Moment &) const
+      auto affine(const TransferArrays<dim> &arrays, const Batch &batch, const Moment &, const double) const
       {
         return load_matrix<dim>(batch, arrays.grad_v);
       }

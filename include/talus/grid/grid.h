@@ -33,7 +33,7 @@ namespace Talus
     /** Sets up the triangulation's extents alone; called by create(). */
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    /** Zeros the active nodes; the others are zero. */
+    /** Zeros the active nodes and all copies; the others are zero. */
     void clear();
 
     /** Eqs. (20)-(21) of the active nodes: v_i += dt f_i / m_i where m_i > `mass_floor`; elsewhere v_i = 0. */
@@ -83,8 +83,6 @@ namespace Talus
     void fill_tables();
 
     void collect_active_nodes();
-
-    std::vector<unsigned int> active_copies; // local nodes of other ranks that are active
 
     dealii::FE_Q<dim>         fe;
     std::vector<CellIterator> cells;

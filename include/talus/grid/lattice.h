@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -67,6 +68,14 @@ namespace Talus
       for (const double spacing : h)
         smallest = std::min(smallest, spacing);
       return smallest;
+    }
+
+    double largest_spacing() const
+    {
+      double largest = h[0];
+      for (const double spacing : h)
+        largest = std::max(largest, spacing);
+      return largest;
     }
 
     /** Sets the box of the tables to [lower, upper] plus padding and clears them. */

@@ -32,6 +32,7 @@ namespace Talus
     void reinit(const dealii::IndexSet &owned_nodes, const dealii::IndexSet &relevant_nodes, MPI_Comm communicator);
 
     void clear() { values = 0.; }
+    void clear_copies() { values.zero_out_ghost_values(); }
 
     /** Adds what this rank has summed into copies to their owners. */
     void add_copies_to_owners() { values.compress(dealii::VectorOperation::add); }

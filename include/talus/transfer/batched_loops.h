@@ -37,7 +37,7 @@ namespace Talus
           b = body_force(acceleration, x, time);
 
         Vectors add;
-        contribution(scheme, arrays, batch, stencil, b, add);
+        contribution(scheme, arrays, batch, stencil, b, lattice.largest_spacing(), add);
         const Factors factors(stencil);
         for (unsigned int l = 0; l < batch.size(); ++l)
           if (stencil.is_product)
@@ -142,7 +142,8 @@ namespace Talus
     template <class Batch>
     [[gnu::always_inline]] static void contribution(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                                     const Batch &batch, const LatticeBatch<dim, n> &stencil,
-                                                    const VectorNumber &b, Vectors &add)
+                                                    const VectorNumber &b, [[maybe_unused]] const double h,
+                                                    Vectors &add)
     {
       const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
       Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
@@ -156,7 +157,7 @@ namespace Talus
 
       dealii::Tensor<2, dim, Number> C;
       if constexpr (is_affine)
-        C = scheme.affine(arrays, batch, second_moment(stencil));
+        C = scheme.affine(arrays, batch, second_moment(stencil), h);
       for (unsigned int e = 0; e < dim; ++e)
       {
         rows[Fields::mass] = 0.;

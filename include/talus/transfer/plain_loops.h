@@ -25,7 +25,7 @@ namespace Talus
       for_each_stencil(particles, kernel, 0, particles.size(), [&](const unsigned int p, const Stencil<dim> &stencil) {
         if (acceleration.depends_on_space())
           b = acceleration.value(dealii::Point<dim>(load_vector<dim>(SingleBatch{p}, arrays.position)), time);
-        scatter(contribution(scheme, arrays, p, stencil, b), stencil, grid.fields);
+        scatter(contribution(scheme, arrays, p, stencil, b, kernel.lattice->largest_spacing()), stencil, grid.fields);
       });
     }
 
@@ -86,7 +86,8 @@ namespace Talus
     };
 
     static Contribution contribution(const Scheme &scheme, const TransferArrays<dim> &arrays, const unsigned int p,
-                                     const Stencil<dim> &stencil, const dealii::Tensor<1, dim> &b)
+                                     const Stencil<dim> &stencil, const dealii::Tensor<1, dim> &b,
+                                     [[maybe_unused]] const double h)
     {
       const double m = arrays.mass[p], V = arrays.volume[p];
       Contribution add;
@@ -107,7 +108,7 @@ namespace Talus
         dealii::SymmetricTensor<2, dim> D;
         if constexpr (Scheme::needs_D)
           D = second_moment(stencil);
-        const auto C = scheme.affine(arrays, SingleBatch{p}, D);
+        const auto C = scheme.affine(arrays, SingleBatch{p}, D, h);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
             add.linear[e][Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)

@@ -45,7 +45,7 @@ namespace Talus
   template <int dim>
   struct Scheme
   {
-    static constexpr bool is_affine         = false; // C_p is not zero: affine() gives it [1/time]
+    static constexpr bool is_affine         = false; // C_p is not zero: affine(arrays, batch, D, h) gives it [1/time]
     static constexpr bool needs_D           = false; // affine() reads D, Eq. (18)
     static constexpr bool gathers_B         = false;
     static constexpr bool gathers_increment = false;
