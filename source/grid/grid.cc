@@ -41,8 +41,10 @@ namespace Talus
 
   template <int dim>
   Grid<dim>::Grid(const std::string &section, MPI_Comm communicator) :
-    ParameterAcceptor(section), communicator(communicator), triangulation(communicator), dof_handler(triangulation),
-    fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
+    ParameterAcceptor(section), communicator(communicator),
+    triangulation(communicator, Triangulation<dim>::none,
+                  parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
+    dof_handler(triangulation), fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
   {
     const Patterns::List numbers(Patterns::Double(), dim, dim);
     add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", prm,
