@@ -46,6 +46,12 @@ void errors()
   check_text("no cells", "'Cells' in section 'FEM reference': '4, 0' is not", Test::set("Cells", "4, 0"));
   check_text("empty box", "Every coordinate of the upper corner must be greater", Test::set("Upper corner", "1, 0"));
   check_text("no boundary", "holds nowhere", Test::conditions("floor", ""));
+  check_text("half a box", "give both corners of the box with 2 numbers each",
+             Test::conditions("floor", "  subsection floor\n" + Test::set("Lower corner", "0, 0") + "  end\n"));
+  check_message("box without a node", "no node of the reference lies in this box", []() {
+    solved("  subsection floor\n" + Test::set("Lower corner", ".1, .1") + Test::set("Upper corner", ".2, .2") +
+           "  end\n");
+  });
   check_text("face 4 in 2D", "'4' is not a valid value",
              Test::conditions("floor", Test::condition("floor", "4", "0; 0")));
   check_text("component z in 2D", "'z' is not a valid value",
