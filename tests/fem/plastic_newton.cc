@@ -45,7 +45,9 @@ namespace
           std::cout << (imbalance == reference->imbalances().front() ? "  " : ", ") << imbalance
                     << (imbalance == reference->imbalances().back() ? "\n" : "");
     });
-    Test::check_true(std::to_string(dim) + "D " + hardening.name + ": no step halved", reference->n_halvings() == 0);
+    // Without softening the work of deformation is convex, and the line search finds its minimum.
+    if (hardening.name != "exponential")
+      Test::check_true(std::to_string(dim) + "D " + hardening.name + ": no step halved", reference->n_halvings() == 0);
     Test::check_range(std::to_string(dim) + "D " + hardening.name + ": order of Newton's method", least, 1.7, 4.);
   }
 
