@@ -53,6 +53,9 @@ endforeach()
 foreach(ranks 1 2)
   talus_add_run(regression.shear.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/shear.py
     $<TARGET_FILE:talus> ${shear} ${work}/regression/shear.${ranks} ${ranks} ${MPIRUN})
+  talus_add_run(regression.load_curve.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/load_curve.py
+    $<TARGET_FILE:talus> ${CMAKE_CURRENT_SOURCE_DIR}/regression/load_curve.prm ${work}/regression/load_curve.${ranks}
+    ${ranks} ${MPIRUN})
 endforeach()
 
 # Friction, damping and loads against closed forms.

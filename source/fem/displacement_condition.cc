@@ -3,6 +3,8 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+
 namespace Talus
 {
   using namespace dealii;
@@ -21,6 +23,10 @@ namespace Talus
                   "Faces of the box where this condition holds: 0 and 1 are the lower and upper face in x, 2 and 3 in "
                   "y, 4 and 5 in z.",
                   this->prm, Patterns::List(Patterns::Integer(0, 2 * dim - 1)));
+    add_parameter("Lower corner", lower, "With 'Upper corner': also at all nodes in this box [length].", this->prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Upper corner", upper, "With 'Lower corner': also at all nodes in this box [length].", this->prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
     add_parameter("Components", component_names, "Components of the displacement that are prescribed.", this->prm,
                   Patterns::List(Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"), 1));
     add_parameter("Displacement", formulas,
@@ -33,16 +39,34 @@ namespace Talus
   void DisplacementCondition<dim>::parse_parameters(ParameterHandler &)
   {
     const std::string section = get_section_name();
-    if (boundary_ids.empty())
+    if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
+      throw EntryError(section, "Lower corner",
+                       "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+    if (boundary_ids.empty() && lower.empty())
       throw EntryError(section, "Boundary ids",
                        "the condition '" + name + "' holds nowhere. Give it one or more of the ids 0 to " +
-                         std::to_string(2 * dim - 1) + ".");
+                         std::to_string(2 * dim - 1) + ", or the corners of a box of nodes.");
 
     components.clear();
     for (const auto &axis : Utilities::split_string_list(component_names))
       components.push_back(axes.find(axis));
 
     displacement.initialize(formulas, section, "Displacement");
+  }
+
+  template <int dim>
+  bool DisplacementCondition<dim>::holds_for(const unsigned int component) const
+  {
+    return std::find(components.begin(), components.end(), component) != components.end();
+  }
+
+  template <int dim>
+  bool DisplacementCondition<dim>::is_in_box(const Point<dim> &x, const double tolerance) const
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      if (x[i] < lower[i] - tolerance || x[i] > upper[i] + tolerance)
+        return false;
+    return true;
   }
 
   template class DisplacementCondition<2>;

@@ -6,14 +6,9 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/filtered_iterator.h>
-#include <deal.II/grid/grid_generator.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
-#include <deal.II/numerics/vector_tools_boundary.h>
-
-#include <algorithm>
 
 namespace Talus
 {
@@ -22,51 +17,16 @@ namespace Talus
   namespace
   {
     const FEValuesExtractors::Vector u(0);
-
-    /** A component of the rigid translations and rotations at x. */
-    template <int dim>
-    std::vector<double> rigid_motions(const Tensor<1, dim> &x, const unsigned int component)
-    {
-      std::vector<double> motions(dim, 0.);
-      motions[component] = 1.;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i + 1; j < dim; ++j)
-          motions.push_back(component == i ? -x[j] : component == j ? x[i] : 0.);
-      return motions;
-    }
   } // namespace
 
   template <int dim>
   ElasticReference<dim>::ElasticReference(Parameters &parameters, const std::string &section,
                                           const MPI_Comm communicator) :
     ParameterAcceptor(section),
-    communicator(communicator), n_cells(dim, 20), triangulation(communicator), dof_handler(triangulation)
+    communicator(communicator), box(section), conditions(parameters, section + "/Conditions"),
+    triangulation(communicator), dof_handler(triangulation)
   {
-    for (unsigned int i = 0; i < dim; ++i)
-      upper[i] = 1.;
     add_parameter("Degree", degree, "Polynomial degree of the elements, 1 or 2.", this->prm, Patterns::Integer(1, 2));
-    add_parameter("Lower corner", lower, "Lower corner of the box [length].", this->prm);
-    add_parameter("Upper corner", upper, "Upper corner of the box [length].", this->prm);
-    add_parameter("Cells", n_cells,
-                  "Number of cells in each direction. A high common power of two saves memory: the rest is "
-                  "stored on every rank.",
-                  this->prm, Patterns::List(Patterns::Integer(1), dim, dim));
-
-    const std::string objects = section + "/Conditions";
-    for (const auto &name : parameters.names(objects, "Names of the prescribed displacements. Each has a section of "
-                                                      "its name; where two prescribe the same, the last one counts."))
-      conditions.push_back(std::make_unique<DisplacementCondition<dim>>(objects + "/" + name, name));
-  }
-
-  template <int dim>
-  void ElasticReference<dim>::parse_parameters(ParameterHandler &)
-  {
-    for (unsigned int i = 0; i < dim; ++i)
-      if (!(lower[i] < upper[i]))
-        throw EntryError(get_section_name(), "Upper corner",
-                         "the box from " + Patterns::Tools::to_string(lower) + " to " +
-                           Patterns::Tools::to_string(upper) +
-                           " is empty. Every coordinate of the upper corner must be greater than that of the lower.");
   }
 
   template <int dim>
@@ -96,8 +56,8 @@ namespace Talus
     Assert(K > 0., ExcMessage("Call set_moduli() before solve()."));
     if (triangulation.n_levels() == 0)
       make_mesh();
-    prescribe(time);
-    check_body_is_held();
+    conditions.prescribe(mapping, dof_handler, time);
+    constraints.copy_from(conditions.constraints());
     compute_cell_matrix();
     assemble();
     solve_system();
@@ -107,81 +67,9 @@ namespace Talus
   template <int dim>
   void ElasticReference<dim>::make_mesh()
   {
-    // p4est keeps the coarse mesh on every rank: leave as much as possible to refinement.
-    auto         n_coarse      = n_cells;
-    unsigned int n_refinements = 0;
-    const auto   is_even       = [](const unsigned int n) { return n % 2 == 0; };
-    for (; std::all_of(n_coarse.begin(), n_coarse.end(), is_even); ++n_refinements)
-      for (auto &n : n_coarse)
-        n /= 2;
-    GridGenerator::subdivided_hyper_rectangle(triangulation, n_coarse, lower, upper, true);
-    triangulation.refine_global(n_refinements);
-
+    box.create(triangulation);
     fe = std::make_unique<FESystem<dim>>(FE_Q<dim>(degree), dim);
     dof_handler.distribute_dofs(*fe);
-  }
-
-  template <int dim>
-  void ElasticReference<dim>::prescribe(const double time)
-  {
-    prescribed.clear();
-    for (unsigned int k = 0; k < conditions.size(); ++k)
-    {
-      const auto &condition = *conditions[k];
-      for (const unsigned int component : condition.components)
-      {
-        const VectorFunctionFromScalarFunctionObject<dim> displacement(
-          [&](const Point<dim> &x) { return condition.displacement.value(x, time)[component]; }, component, dim);
-        std::map<types::boundary_id, const Function<dim> *> functions;
-        for (const unsigned int id : condition.boundary_ids)
-          functions[id] = &displacement;
-        ComponentMask mask(dim, false);
-        mask.set(component, true);
-        std::map<types::global_dof_index, double> values;
-        VectorTools::interpolate_boundary_values(mapping, dof_handler, functions, values, mask);
-        for (const auto &[dof, value] : values)
-          prescribed[dof] = {k, component, value};
-      }
-    }
-
-    constraints.reinit(DoFTools::extract_locally_relevant_dofs(dof_handler));
-    for (const auto &[dof, data] : prescribed)
-    {
-      constraints.add_line(dof);
-      constraints.set_inhomogeneity(dof, data.value);
-    }
-    constraints.close();
-  }
-
-  template <int dim>
-  void ElasticReference<dim>::check_body_is_held() const
-  {
-    std::map<types::global_dof_index, Point<dim>> positions;
-    DoFTools::map_dofs_to_support_points(mapping, dof_handler, positions);
-
-    // The body is held when no rigid motion vanishes on all that is prescribed: their Gram matrix there is regular.
-    const unsigned int  n = dim + dim * (dim - 1) / 2;
-    std::vector<double> gram(n * n, 0.);
-    for (const auto &[dof, data] : prescribed)
-      if (dof_handler.locally_owned_dofs().is_element(dof))
-      {
-        const Tensor<1, dim> x       = (positions.at(dof) - lower) / (upper - lower).norm();
-        const auto           motions = rigid_motions(x, data.component);
-        for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int b = 0; b < n; ++b)
-            gram[a * n + b] += motions[a] * motions[b];
-      }
-    Utilities::MPI::sum(gram, communicator, gram);
-
-    LAPACKFullMatrix<double> matrix(n);
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
-        matrix(a, b) = gram[a * n + b];
-    matrix.compute_svd();
-    AssertThrow(matrix.singular_value(n - 1) > 1e-10 * matrix.singular_value(0),
-                InputError("The conditions in section '" + get_section_name() +
-                           "/Conditions' leave the body free to move or turn as a whole. Prescribe more components, "
-                           "or another face."));
   }
 
   template <int dim>

@@ -38,50 +38,33 @@ namespace Talus
   template <int dim>
   bool ElasticReference<dim>::has_condition(const std::string &condition) const
   {
-    return std::any_of(conditions.begin(), conditions.end(), [&](const auto &c) { return c->name == condition; });
+    return conditions.has(condition);
   }
 
   template <int dim>
   Tensor<1, dim> ElasticReference<dim>::force(const std::string &condition) const
   {
     Assert(residual.size() > 0, ExcMessage("Call solve() first."));
-    std::vector<std::string> names;
-    for (const auto &known : conditions)
-      names.push_back(known->name);
-    const auto k = std::find(names.begin(), names.end(), condition) - names.begin();
-    if (k == static_cast<std::ptrdiff_t>(names.size()))
-    {
-      const std::string similar = closest(condition, names);
-      throw InputError("The elastic reference has no condition '" + condition + "'." +
-                       (similar.empty() ? "" : " Did you mean '" + similar + "'?") +
-                       " List it in 'Names' of section '" + get_section_name() +
-                       "/Conditions', or ask for one of those.");
-    }
-
-    Tensor<1, dim> force;
-    for (const auto &[dof, data] : prescribed)
-      if (data.condition == k && dof_handler.locally_owned_dofs().is_element(dof))
-        force[data.component] -= residual[dof];
-    return Utilities::MPI::sum(force, communicator);
+    return conditions.force(condition, residual);
   }
 
   template <int dim>
   std::vector<Point<dim>> ElasticReference<dim>::checked(const std::vector<Point<dim>> &points) const
   {
     Assert(solution.size() > 0, ExcMessage("Call solve() first."));
-    const double tolerance = 1e-10 * (upper - lower).norm();
+    const double tolerance = 1e-10 * (box.upper - box.lower).norm();
     std::string  problem;
     auto         moved = points;
     for (auto &point : moved)
     {
       const Point<dim> given = point;
       for (unsigned int i = 0; i < dim; ++i)
-        point[i] = std::min(std::max(given[i], lower[i]), upper[i]);
+        point[i] = std::min(std::max(given[i], box.lower[i]), box.upper[i]);
       if (problem.empty() && !((point - given).norm() <= tolerance))
       {
         std::ostringstream text;
-        text << "The point (" << given << ") lies outside the box of the elastic reference, from (" << lower << ") to ("
-             << upper << "). Enlarge the box in section '" << get_section_name() << "'.";
+        text << "The point (" << given << ") lies outside the box of the elastic reference, from (" << box.lower
+             << ") to (" << box.upper << "). Enlarge the box in section '" << get_section_name() << "'.";
         problem = text.str();
       }
     }

@@ -57,12 +57,7 @@ namespace Talus
       boundary.conditions.push_back(
         parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", "Kind of condition."));
     transfer->add_fields(particles);
-    if (parameters.choose_from("/FEM reference", "Compare", "no", "no|yes",
-                               "Compare the stress with a linear elastic finite element solution.") == "yes")
-    {
-      comparison = std::make_unique<Comparison<dim>>(parameters, "/FEM reference", material_names, communicator);
-      comparison->add_fields(particles);
-    }
+    add_reference(parameters, material_names);
 
     transfer->is_plain =
       parameters.choose_from("/Run", "Loops", "batched", "batched|plain",
@@ -81,6 +76,24 @@ namespace Talus
     add_parameter("Local damping", boundary.damping.factor,
                   "Share alpha of each nodal force that opposes the motion, for quasi-static work [1]; 0: none.", prm,
                   Patterns::Double());
+  }
+
+  template <int dim>
+  void Simulation<dim>::add_reference(Parameters &parameters, const std::vector<std::string> &material_names)
+  {
+    const std::string section = "/FEM reference";
+    if (parameters.choose_from(section, "Compare", "no", "no|yes",
+                               "Solve the problem by finite elements too, for comparison.") == "no")
+      return;
+    if (parameters.choose_from(section, "Model", "linear elastic", "linear elastic|J2",
+                               "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
+                               "plasticity, a load-displacement curve is written.") == "J2")
+      load_curve = std::make_unique<LoadCurve<dim>>(parameters, section, communicator);
+    else
+    {
+      comparison = std::make_unique<Comparison<dim>>(parameters, section, material_names, communicator);
+      comparison->add_fields(particles);
+    }
   }
 
   template <int dim>
@@ -200,6 +213,12 @@ namespace Talus
       std::ostringstream table;
       comparison->write(output.directory() + "/comparison.csv", table);
       say(table.str());
+    }
+    if (load_curve)
+    {
+      Timing::Scope scope(timing, comparison_section);
+      load_curve->compute(end_time, output.directory() + "/load_curve.csv");
+      say(load_curve->summary());
     }
     if (output.is_due_at_end(step))
     {

@@ -46,6 +46,12 @@ void errors()
   check_text("no cells", "'Cells' in section 'FEM reference': '4, 0' is not", Test::set("Cells", "4, 0"));
   check_text("empty box", "Every coordinate of the upper corner must be greater", Test::set("Upper corner", "1, 0"));
   check_text("no boundary", "holds nowhere", Test::conditions("floor", ""));
+  check_text("half a box", "give both corners of the box with 2 numbers each",
+             Test::conditions("floor", "  subsection floor\n" + Test::set("Lower corner", "0, 0") + "  end\n"));
+  check_message("box without a node", "no node of the reference lies in this box", []() {
+    solved("  subsection floor\n" + Test::set("Lower corner", ".1, .1") + Test::set("Upper corner", ".2, .2") +
+           "  end\n");
+  });
   check_text("face 4 in 2D", "'4' is not a valid value",
              Test::conditions("floor", Test::condition("floor", "4", "0; 0")));
   check_text("component z in 2D", "'z' is not a valid value",
@@ -76,6 +82,24 @@ void errors()
   check_message("negative modulus", "positive moduli", []() { Test::make_reference<2>("")->set_moduli(-1., 1.); });
   check_message("unknown condition", "has no condition 'flor'. Did you mean 'floor'?",
                 []() { solved()->force("flor"); });
+  check_message("unknown condition of the plastic reference", "has no condition 'flor'", []() {
+    auto plastic = Test::make<PlasticReference<2>>(Test::set("Cells", "1, 1") + Test::conditions("floor", good));
+    plastic->solve(1.);
+    plastic->force("flor");
+  });
+  bool has_failed = false;
+  try
+  {
+    // Strains beyond all numbers: no step is short enough.
+    auto plastic = Test::make<PlasticReference<2>>(
+      Test::set("Cells", "1, 1") + Test::conditions("floor, top", good + Test::condition("top", "3", "0; 1e200*t")));
+    plastic->solve(1.);
+  }
+  catch (const RunError &error)
+  {
+    has_failed = error.message.find("finds no equilibrium after t = 0, not even") != std::string::npos;
+  }
+  Test::check_true("no equilibrium", has_failed);
   const auto outside = [](const Point<2> &point) {
     // Only one rank asks for it, all must throw.
     const bool is_root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

@@ -7,6 +7,14 @@ void forces();
 void ranks();
 void shear();
 void errors();
+void j2_law();
+void cell_strains();
+void plastic_element();
+void plastic_newton();
+void cylinder();
+void locking();
+void footing();
+void long_footing();
 
 int main(int argc, char **argv)
 {
@@ -17,5 +25,13 @@ int main(int argc, char **argv)
                     {"forces", forces},
                     {"ranks", ranks},
                     {"shear", shear},
-                    {"errors", errors}});
+                    {"errors", errors},
+                    {"j2 law", j2_law},
+                    {"cell strains", cell_strains},
+                    {"plastic element", plastic_element},
+                    {"plastic newton", plastic_newton},
+                    {"cylinder", cylinder},
+                    {"locking", locking},
+                    {"long: footing h = .1", footing},
+                    {"long: footings", long_footing}});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/fem/elastic_reference.h>
+#include <talus/fem/plastic_reference.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,14 +14,20 @@
 namespace Test
 {
   /** A reference as the section "/FEM reference" of a parameter file describes it. */
+  template <class Reference>
+  std::unique_ptr<Reference> make(const std::string &text, const MPI_Comm communicator = MPI_COMM_WORLD)
+  {
+    auto parameters = Talus::Parameters::from_text("subsection FEM reference\n" + text + "end\n");
+    auto reference  = std::make_unique<Reference>(parameters, "/FEM reference", communicator);
+    parameters.parse();
+    return reference;
+  }
+
   template <int dim>
   std::unique_ptr<Talus::ElasticReference<dim>> make_reference(const std::string &text,
                                                                const MPI_Comm     communicator = MPI_COMM_WORLD)
   {
-    auto parameters = Talus::Parameters::from_text("subsection FEM reference\n" + text + "end\n");
-    auto reference  = std::make_unique<Talus::ElasticReference<dim>>(parameters, "/FEM reference", communicator);
-    parameters.parse();
-    return reference;
+    return make<Talus::ElasticReference<dim>>(text, communicator);
   }
 
   inline std::string set(const std::string &entry, const std::string &value)

@@ -11,11 +11,11 @@
 namespace Talus
 {
   /**
-   * A prescribed displacement on some faces of a box: @f$ u_c = \bar u_c(x, t) @f$
-   * for the chosen components c. The other components are free of traction.
+   * A prescribed displacement @f$ u_c = \bar u_c(x, t) @f$ for the chosen components c, on some faces of the body or
+   * at all nodes in a box. The other components are free of traction.
    *
    * Throws EntryError for formulas that muParser cannot read or that are not
-   * `dim`, and when no boundary is given. Test: tests/fem/errors.cc.
+   * `dim`, when neither boundary nor box is given, and for half a box. Test: tests/fem/errors.cc.
    */
   template <int dim>
   class DisplacementCondition : public dealii::ParameterAcceptor
@@ -24,6 +24,14 @@ namespace Talus
     DisplacementCondition(const std::string &section, const std::string &name);
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    /** Whether the component is prescribed. */
+    bool holds_for(const unsigned int component) const;
+
+    bool has_box() const { return !lower.empty(); }
+
+    /** Whether the box holds the point; a margin of `tolerance` [length] belongs to it. */
+    bool is_in_box(const dealii::Point<dim> &x, const double tolerance) const;
 
     const std::string name;
 
@@ -37,6 +45,7 @@ namespace Talus
     ParsedVector<dim> displacement;
 
   private:
-    std::string component_names, formulas;
+    std::vector<double> lower, upper; // of the box, or empty
+    std::string         component_names, formulas;
   };
 } // namespace Talus

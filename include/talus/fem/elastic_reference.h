@@ -1,7 +1,8 @@
 #pragma once
 
 #include <talus/core/parameters.h>
-#include <talus/fem/displacement_condition.h>
+#include <talus/fem/box_mesh.h>
+#include <talus/fem/displacement_conditions.h>
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -14,7 +15,6 @@
 #include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +41,6 @@ namespace Talus
   {
   public:
     ElasticReference(Parameters &parameters, const std::string &section, const MPI_Comm communicator = MPI_COMM_WORLD);
-
-    void parse_parameters(dealii::ParameterHandler &prm) override;
 
     /** K and G [stress]. */
     void set_moduli(const double bulk_modulus, const double shear_modulus);
@@ -72,16 +70,7 @@ namespace Talus
   private:
     using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-    /** A degree of freedom that a condition prescribes. */
-    struct Prescribed
-    {
-      unsigned int condition, component;
-      double       value;
-    };
-
     void   make_mesh();
-    void   prescribe(const double time);
-    void   check_body_is_held() const;
     void   compute_cell_matrix();
     void   assemble();
     void   solve_system();
@@ -93,21 +82,19 @@ namespace Talus
 
     const MPI_Comm communicator;
 
-    unsigned int                                             degree = 2;
-    dealii::Point<dim>                                       lower, upper;
-    std::vector<unsigned int>                                n_cells;
-    std::vector<std::unique_ptr<DisplacementCondition<dim>>> conditions;
-    double                                                   K = 0., G = 0.;
-    std::shared_ptr<const dealii::Function<dim>>             body_force;
+    BoxMesh<dim>                                 box;
+    DisplacementConditions<dim>                  conditions;
+    unsigned int                                 degree = 2;
+    double                                       K = 0., G = 0.;
+    std::shared_ptr<const dealii::Function<dim>> body_force;
 
-    dealii::parallel::distributed::Triangulation<dim>     triangulation;
-    dealii::MappingQ1<dim>                                mapping;
-    std::unique_ptr<dealii::FESystem<dim>>                fe;
-    dealii::DoFHandler<dim>                               dof_handler;
-    std::map<dealii::types::global_dof_index, Prescribed> prescribed; // those relevant on this rank
-    dealii::AffineConstraints<double>                     constraints;
-    dealii::FullMatrix<double>                            cell_matrix; // the same for all cells
-    dealii::TrilinosWrappers::SparseMatrix                matrix;
-    Vector                                                right_hand_side, load, solution, residual;
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    dealii::MappingQ1<dim>                            mapping;
+    std::unique_ptr<dealii::FESystem<dim>>            fe;
+    dealii::DoFHandler<dim>                           dof_handler;
+    dealii::AffineConstraints<double>                 constraints;
+    dealii::FullMatrix<double>                        cell_matrix; // the same for all cells
+    dealii::TrilinosWrappers::SparseMatrix            matrix;
+    Vector                                            right_hand_side, load, solution, residual;
   };
 } // namespace Talus

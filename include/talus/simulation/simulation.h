@@ -2,6 +2,7 @@
 
 #include <talus/core/parameters.h>
 #include <talus/postprocess/comparison.h>
+#include <talus/postprocess/load_curve.h>
 #include <talus/postprocess/output.h>
 #include <talus/postprocess/probes.h>
 #include <talus/postprocess/progress.h>
@@ -28,6 +29,7 @@ namespace Talus
 
   private:
     bool   is_finished() const { return time >= end_time || (max_steps > 0 && step >= max_steps); }
+    void   add_reference(Parameters &parameters, const std::vector<std::string> &material_names);
     void   set_up();
     void   open_output();
     void   advance();
@@ -64,6 +66,7 @@ namespace Talus
     Statistics<dim>                  statistics;
     std::unique_ptr<Progress>        progress;
     std::unique_ptr<Comparison<dim>> comparison; // with a finite element reference, on request
+    std::unique_ptr<LoadCurve<dim>>  load_curve; // of the plastic one, on request
 
     std::string  acceleration_text;
     double       end_time = 1, courant_number = 0.5, fixed_step_size = 0;
