@@ -78,6 +78,22 @@ namespace Talus
       return determinant(F);
     }
 
+    /** sqrt(2/3) |dev e| of Hencky's strain e = ln(F F^T) / 2, which no rotation changes. */
+    template <int dim>
+    double deviatoric_strain(const WorkingSet<dim> &particles, const unsigned int p)
+    {
+      Tensor<2, 3> F = unit_symmetric_tensor<3>();
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        F[c / dim][c % dim] = particles.component(particles.F, c)[p];
+      const auto b    = eigenvalues(symmetrize(F * transpose(F)));
+      double     mean = 0, squares = 0;
+      for (const double stretch : b)
+        mean += std::log(stretch) / 6;
+      for (const double stretch : b)
+        squares += std::pow(std::log(stretch) / 2 - mean, 2);
+      return std::sqrt(2. / 3. * squares);
+    }
+
     template <int dim>
     double kinetic_energy_density(const WorkingSet<dim> &particles, const unsigned int p)
     {
@@ -113,6 +129,17 @@ namespace Talus
       });
       add("volume ratio", "1", 1,
           [](const Set &set, const unsigned int p, double *value) { *value = volume_ratio(set, p); });
+      add("deviatoric strain", "1", 1,
+          [](const Set &set, const unsigned int p, double *value) { *value = deviatoric_strain(set, p); });
+      // curl v; in 2D its component along z.
+      add("vorticity", "1/time", dim == 2 ? 1 : 3, [](const Set &set, const unsigned int p, double *value) {
+        const auto L = set.matrix(set.grad_v, p);
+        if constexpr (dim == 2)
+          value[0] = L[1][0] - L[0][1];
+        else
+          for (unsigned int i = 0; i < 3; ++i)
+            value[i] = L[(i + 2) % 3][(i + 1) % 3] - L[(i + 1) % 3][(i + 2) % 3];
+      });
       add("kinetic energy density", "energy/volume", 1,
           [](const Set &set, const unsigned int p, double *value) { *value = kinetic_energy_density(set, p); });
       return fields;

@@ -72,6 +72,34 @@ namespace
     check("kinetic energy density" + d, evaluate(set, "kinetic energy density")[0] - .75 * (dim == 2 ? 5 : 14), 1e-14);
   }
 
+  /** F = R diag(a, b, c): Hencky's strains are the logarithms; a rotating body has twice its angular velocity. */
+  template <int dim>
+  void check_kinematics(WorkingSet<dim> &set)
+  {
+    const std::string d         = " in " + std::to_string(dim) + "D";
+    const double      stretch[] = {2., 0.9, dim == 2 ? 1. : 1.1}, cos = std::cos(0.7), sin = std::sin(0.7);
+    const double      R[3][3]    = {{cos, -sin, 0}, {sin, cos, 0}, {0, 0, 1}};
+    const double      spin[3][3] = {{1, -3, 2}, {3, 2, -1}, {-2, 1, 3}}; // angular velocity (1, 2, 3) and stretching
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+      {
+        set.component(set.F, i * dim + j)[0]      = R[i][j] * stretch[j];
+        set.component(set.grad_v, i * dim + j)[0] = spin[i][j];
+      }
+    const double x = std::log(2.), y = std::log(0.9), z = std::log(stretch[2]);
+    const double expected = std::sqrt(2 * ((x - y) * (x - y) + (y - z) * (y - z) + (z - x) * (z - x))) / 3;
+    check("deviatoric strain" + d, evaluate(set, "deviatoric strain")[0] - expected, 1e-14);
+    for (unsigned int i = 0; i < (dim == 2 ? 1 : 3); ++i)
+      check("vorticity" + d, evaluate(set, "vorticity")[i] - (dim == 2 ? 6. : 2. * (i + 1)), 1e-14);
+    set.component(set.F, 0)[0] = 1 + 1e-5, set.component(set.F, 1)[0] = set.component(set.F, dim)[0] = 0;
+    set.component(set.F, dim + 1)[0] = 1;
+    if (dim == 3)
+      set.component(set.F, 8)[0] = 1;
+    // Small strains need more than half of the digits.
+    check("small deviatoric strain" + d, evaluate(set, "deviatoric strain")[0] - std::log(1 + 1e-5) * 2 / 3,
+          1e-10 * 1e-5);
+  }
+
   template <int dim>
   void check_names(const std::string &expected)
   {
@@ -100,6 +128,8 @@ void test_fields()
   check_stress(space);
   check_others(plane);
   check_others(space);
+  check_kinematics(plane);
+  check_kinematics(space);
   check_names<2>("velocity_x velocity_y stress_xx stress_yy stress_zz stress_xy velocity_gradient_xx "
                  "velocity_gradient_xy velocity_gradient_yx velocity_gradient_yy plastic_strain_xx plastic_strain_yy "
                  "plastic_strain_zz plastic_strain_xy ");

@@ -24,8 +24,8 @@ namespace Talus
 
   /**
    * All quantities that a run can write: every field of `particles` and, derived,
-   * displacement, von Mises stress, pressure, density, volume ratio and kinetic
-   * energy density. The result refers to fields by number, not to `particles`.
+   * displacement, von Mises stress, pressure, density, volume ratio, deviatoric
+   * strain, vorticity and kinetic energy density. The result refers to fields by number, not to `particles`.
    */
   template <int dim>
   std::vector<ParticleField<dim>> all_particle_fields(const WorkingSet<dim> &particles);
