@@ -7,7 +7,9 @@ namespace Talus
 
   Material::Material(const std::string &section) : ParameterAcceptor(section)
   {
-    add_parameter("Density", density, "Mass per volume in the initial state [mass/volume].", prm, Patterns::Double());
+    add_parameter("Density", density,
+                  "Mass per volume in the initial state, of a fluid at zero pressure [mass/volume].", prm,
+                  Patterns::Double());
   }
 
   void Material::parse_parameters(ParameterHandler &)

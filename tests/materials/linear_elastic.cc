@@ -12,26 +12,6 @@ namespace
     return SinglePoint("linear elastic", set("Young's modulus", "7") + set("Poisson's ratio", "0.2"), dim);
   }
 
-  /** Rotation by `angle` in the plane of axes a and b, from a to b. */
-  Tensor<2, 3> rotation(const unsigned int a, const unsigned int b, const double angle)
-  {
-    Tensor<2, 3> R = unit_symmetric_tensor<3>();
-    R[a][a] = R[b][b] = std::cos(angle);
-    R[b][a]           = std::sin(angle);
-    R[a][b]           = -std::sin(angle);
-    return R;
-  }
-
-  Tensor<2, 3> some_tensor(const double seed)
-  {
-    Tensor<2, 3> A;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        A[i][j] = std::sin(seed + 2.3 * i + 5.1 * j);
-    return A;
-  }
-
-  double distance(const Tensor<2, 3> &a, const Tensor<2, 3> &b) { return (a - b).norm(); }
 } // namespace
 
 /** No spin: sigma = (lambda + 2 G) e along the axis and lambda e across, whatever the steps. */

@@ -10,6 +10,57 @@ void energy_and_wave_speed();
 void plane_strain();
 void parameter_errors();
 
+namespace neo_hookean
+{
+  void uniaxial_strain();
+  void simple_shear();
+  void energy_and_stress();
+  void objectivity();
+  void wave_speed();
+} // namespace neo_hookean
+
+namespace von_mises_test
+{
+  void uniaxial_strain();
+  void pure_shear();
+  void yield_surface_and_dissipation();
+  void plane_strain_limit();
+  void plane_strain();
+  void parameter_errors();
+} // namespace von_mises_test
+
+namespace drucker_prager
+{
+  void uniaxial_strain();
+  void pure_shear();
+  void returns();
+  void tension();
+  void no_friction();
+  void biaxial_test();
+  void plane_strain();
+  void parameter_errors();
+} // namespace drucker_prager
+
+namespace newtonian_fluid
+{
+  void uniaxial_strain();
+  void simple_shear();
+  void no_memory();
+  void plane_strain();
+  void energy();
+  void numbers();
+  void parameter_errors();
+} // namespace newtonian_fluid
+
+namespace objectivity
+{
+  void constant_rotation();
+  void superposed_rotation();
+  void constant_spin();
+} // namespace objectivity
+
+void batches();
+
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
@@ -21,5 +72,35 @@ int main(int argc, char **argv)
                     {"linear elastic: tangent", tangent},
                     {"linear elastic: energy and wave speed", energy_and_wave_speed},
                     {"linear elastic: plane strain", plane_strain},
-                    {"linear elastic: parameter errors", parameter_errors}});
+                    {"linear elastic: parameter errors", parameter_errors},
+                    {"neo-Hookean: uniaxial strain", neo_hookean::uniaxial_strain},
+                    {"neo-Hookean: simple shear", neo_hookean::simple_shear},
+                    {"neo-Hookean: energy and stress", neo_hookean::energy_and_stress},
+                    {"neo-Hookean: objectivity", neo_hookean::objectivity},
+                    {"neo-Hookean: wave speed", neo_hookean::wave_speed},
+                    {"von Mises: uniaxial strain", von_mises_test::uniaxial_strain},
+                    {"von Mises: pure shear", von_mises_test::pure_shear},
+                    {"von Mises: yield surface and dissipation", von_mises_test::yield_surface_and_dissipation},
+                    {"von Mises: plane strain limit", von_mises_test::plane_strain_limit},
+                    {"von Mises: plane strain", von_mises_test::plane_strain},
+                    {"von Mises: parameter errors", von_mises_test::parameter_errors},
+                    {"Drucker-Prager: uniaxial strain", drucker_prager::uniaxial_strain},
+                    {"Drucker-Prager: pure shear", drucker_prager::pure_shear},
+                    {"Drucker-Prager: returns", drucker_prager::returns},
+                    {"Drucker-Prager: tension", drucker_prager::tension},
+                    {"Drucker-Prager: no friction", drucker_prager::no_friction},
+                    {"Drucker-Prager: biaxial test", drucker_prager::biaxial_test},
+                    {"Drucker-Prager: plane strain", drucker_prager::plane_strain},
+                    {"Drucker-Prager: parameter errors", drucker_prager::parameter_errors},
+                    {"Newtonian fluid: uniaxial strain", newtonian_fluid::uniaxial_strain},
+                    {"Newtonian fluid: simple shear", newtonian_fluid::simple_shear},
+                    {"Newtonian fluid: no memory", newtonian_fluid::no_memory},
+                    {"Newtonian fluid: plane strain", newtonian_fluid::plane_strain},
+                    {"Newtonian fluid: energy", newtonian_fluid::energy},
+                    {"Newtonian fluid: numbers", newtonian_fluid::numbers},
+                    {"Newtonian fluid: parameter errors", newtonian_fluid::parameter_errors},
+                    {"all laws: constant rotation", objectivity::constant_rotation},
+                    {"all laws: superposed rotation", objectivity::superposed_rotation},
+                    {"all laws: constant spin", objectivity::constant_spin},
+                    {"all laws: batches", batches}});
 }

@@ -56,6 +56,12 @@ namespace Talus
     /** Ratio of horizontal to vertical stress of a layer at rest: nu / (1 - nu). */
     virtual double rest_stress_ratio() const = 0;
 
+    /** Density in the initial state at a pressure that is there from the start [mass/volume]. */
+    virtual double initial_density(const double /* pressure */) const { return density; }
+
+    /** Viscosity over density [length^2/time], which limits the step size as well; 0: it has none. */
+    virtual double kinematic_viscosity() const { return 0; }
+
     double density = 1000; // [mass/volume]
 
     void parse_parameters(dealii::ParameterHandler &prm) override;

@@ -22,6 +22,14 @@ namespace Talus
     const MaterialRange &range;
     const Batch          batch;
 
+    Tensor grad_v() const
+    {
+      Tensor value;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          value[i][j] = batch.load(range.grad_v[3 * i + j]);
+      return value;
+    }
     /** dt grad v */
     Tensor grad_v_dt() const
     {
@@ -105,5 +113,19 @@ namespace Talus
     increment[0][2] = xz * (stress[2][2] - stress[0][0]) + xy * stress[1][2] - yz * stress[0][1];
     increment[1][2] = yz * (stress[2][2] - stress[1][1]) - xy * stress[0][2] - xz * stress[0][1];
     return increment;
+  }
+
+  /** The stress after an elastic step, Eq. (28) with T of isotropic elasticity; the trial stress of plastic laws. */
+  template <class Point>
+  typename Point::Symmetric elastic_step(const Point &point, const double lambda, const double G)
+  {
+    const auto                grad_v_dt = point.grad_v_dt();
+    const auto                old       = point.stress();
+    const auto                d         = symmetrize(grad_v_dt);
+    typename Point::Symmetric stress    = old + 2 * G * d + jaumann_increment(grad_v_dt, old);
+    const auto                isotropic = lambda * trace(d);
+    for (unsigned int i = 0; i < 3; ++i)
+      stress[i][i] += isotropic;
+    return stress;
   }
 } // namespace Talus

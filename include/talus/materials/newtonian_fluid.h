@@ -1,0 +1,36 @@
+#pragma once
+
+#include <talus/materials/material.h>
+
+namespace Talus
+{
+  /**
+   * A nearly incompressible Newtonian fluid, Eqs. (69), (70),
+   * @f[ \sigma = -p I - \tfrac{2}{3} \mu\,\mathrm{tr}(d) I + 2 \mu d , \qquad p = c^2 (\rho - \rho_{ref}) , @f]
+   * where d is the rate of deformation, the trace is that of three dimensions and rho = m/V. It
+   * has no memory and bears tension. `Density` is rho_ref, the density at zero pressure.
+   * No state. Throws nothing: any rate has a stress.
+   * Theory: doc/materials.md. Test: tests/materials/newtonian_fluid.cc.
+   */
+  class NewtonianFluid : public Material
+  {
+  public:
+    explicit NewtonianFluid(const std::string &section);
+
+    void update(const MaterialRange &range) const override;
+    void wave_speeds(const MaterialRange &range, double *speeds) const override;
+
+    /** What compression from rho_ref has taken, rho int p / rho^2 d rho; viscous work is lost. */
+    void strain_energy_densities(const MaterialRange &range, double *densities) const override;
+
+    double rest_stress_ratio() const override { return 1; }
+    double initial_density(const double pressure) const override;
+    double kinematic_viscosity() const override { return viscosity / density; }
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+  private:
+    double viscosity   = 1e-3; // mu [stress time]
+    double sound_speed = 50;   // c [length/time]
+  };
+} // namespace Talus
