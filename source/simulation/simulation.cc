@@ -278,7 +278,12 @@ namespace Talus
   {
     if (fixed_step_size > 0)
       return fixed_step_size;
-    return courant_number * grid.lattice.smallest_spacing() / now.signal_speed; // Eqs. (35), (37)
+    double nu = 0;
+    for (const auto &material : materials)
+      nu = std::max(nu, material->kinematic_viscosity());
+    // Eqs. (35), (37); together with the explicit limit of viscous stress, h^2 / (2 dim nu).
+    const double h = grid.lattice.smallest_spacing();
+    return courant_number / (now.signal_speed / h + 2 * dim * nu / (h * h));
   }
 
   template <int dim>

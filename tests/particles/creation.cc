@@ -207,6 +207,29 @@ void initial_state()
   }
 }
 
+/** A fluid at rest: p = weight (level - height), and the density that the equation of state has at this pressure. */
+template <int dim>
+void hydrostatic()
+{
+  const unsigned int up = dim - 1;
+  const std::string  water =
+    section("water", set("Type", "Newtonian fluid") + set("Density", "3") + set("Sound speed", "5"));
+  const std::string start =
+    set("Initial stress", "hydrostatic") + set("Unit weight", "20") + set("Surface level", "0.9");
+  Setup<dim> setup(section("Grid", grid_entries) + section("Materials", set("Names", "water") + water) +
+                   section("Bodies", set("Names", "body") + section("body", box<dim>(0, 1) + start)));
+  auto      &set   = setup.particles;
+  double     error = 0;
+  for (unsigned int p = 0; p < set.size(); ++p)
+  {
+    const double pressure = 20 * std::max(0., 0.9 - setup.position(p)[up]);
+    for (unsigned int c = 0; c < set.n_stress; ++c)
+      raise(error, set.component(set.stress, c)[p] - (c < 3 ? -pressure : 0.));
+    raise(error, set.component(set.mass, 0)[p] / set.component(set.volume, 0)[p] - (3 + pressure / 25));
+  }
+  check("stress and density", error, 1e-13);
+}
+
 template <int dim>
 void body_errors()
 {
@@ -228,6 +251,7 @@ void body_errors()
   error("velocity without value", box<dim>(0, 1) + set("Velocity", dim == 2 ? "1/0*x; 0" : "1/0*x; 0; 0"), "Velocity",
         "no finite value");
   error("no unit weight", box<dim>(0, 1) + set("Initial stress", "geostatic"), "Unit weight", "must be positive");
+  error("a weightless fluid", box<dim>(0, 1) + set("Initial stress", "hydrostatic"), "Unit weight", "must be positive");
 }
 
 #define INSTANTIATE(name)                                                                                              \
@@ -237,4 +261,5 @@ INSTANTIATE(lattice)
 INSTANTIATE(round_bodies)
 INSTANTIATE(point_file)
 INSTANTIATE(initial_state)
+INSTANTIATE(hydrostatic)
 INSTANTIATE(body_errors)

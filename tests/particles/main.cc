@@ -7,6 +7,7 @@ DECLARE(lattice)
 DECLARE(round_bodies)
 DECLARE(point_file)
 DECLARE(initial_state)
+DECLARE(hydrostatic)
 DECLARE(body_errors)
 DECLARE(synchronise)
 DECLARE(far_away)
@@ -24,6 +25,8 @@ int main(int argc, char **argv)
                     {"point file 3D", point_file<3>},
                     {"initial state 2D", initial_state<2>},
                     {"initial state 3D", initial_state<3>},
+                    {"hydrostatic 2D", hydrostatic<2>},
+                    {"hydrostatic 3D", hydrostatic<3>},
                     {"errors 2D", body_errors<2>},
                     {"errors 3D", body_errors<3>},
                     {"synchronise 2D", synchronise<2>},
