@@ -18,15 +18,19 @@ namespace
     randomize_motion(setup);
     setup.randomize(setup.particles.stress, 5);
     setup.accelerate(dim == 2 ? "0.3; -y" : "0.3; -y; x");
-    const double dt     = 2e-3;
-    auto         ranges = material_ranges(setup.particles, setup.materials, dt);
-    for (auto &range : ranges)
-      range.is_plain = is_plain;
+    const double dt = 2e-3;
     for (unsigned int n = 0; n < 10; ++n)
     {
       setup.step(dt, n * dt);
+      auto ranges = material_ranges(setup.particles, setup.materials, dt);
+      for (auto &range : ranges)
+        range.is_plain = is_plain;
       update_stress(setup.particles, setup.materials, ranges, 0, setup.particles.size());
+      setup.particles.relocate();
+      if (max(setup.particles.needs_synchronise) > 0)
+        setup.particles.migrate();
     }
+    setup.particles.synchronise(); // the same order in both
   }
 
   template <int dim>
