@@ -6,6 +6,7 @@
 #include <talus/kernels/kernel.h>
 #include <talus/particles/lattice_shape.h>
 #include <talus/particles/particles.h>
+#include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
 
 #include "check.h"
@@ -93,10 +94,13 @@ namespace Test
       const auto material_names = parameters.names("/Materials", "");
       for (const auto &name : material_names)
         materials.push_back(parameters.make<Material>("/Materials/" + name, "Type", "linear elastic", ""));
-      for (const auto &name : parameters.names("/Bodies", ""))
+      const auto body_names = parameters.names("/Bodies", "");
+      for (const auto &name : body_names)
         bodies.push_back(std::make_unique<Body<dim>>(parameters, name, material_names));
       for (const auto &name : parameters.names("/Conditions", ""))
         boundary.conditions.push_back(parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", ""));
+      for (const auto &name : parameters.names("/Tractions", ""))
+        tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
       transfer->add_fields(particles);
       parameters.parse();
       accelerate(dim == 2 ? "0; 0" : "0; 0; 0");
@@ -163,6 +167,7 @@ namespace Test
     Particles<dim>                          particles;
     Boundary<dim>                           boundary;
     ParsedVector<dim>                       acceleration;
+    Tractions<dim>                          tractions;
 
   private:
     void create()
@@ -176,6 +181,8 @@ namespace Test
       transfer->initialize(*kernel, particles);
       for (auto &condition : boundary.conditions)
         condition->attach(grid);
+      for (auto &traction : tractions.loads)
+        traction->attach(grid, bodies, particles);
     }
   };
 

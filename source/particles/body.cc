@@ -29,9 +29,9 @@ namespace Talus
     add_parameter("Velocity gradient", velocity_gradient,
                   "Initial velocity gradient dv_i/dx_j row by row [1/time], for the affine transfers; empty: zero.",
                   prm, Patterns::List(Patterns::Double(), 0, dim * dim));
-    stress_kind = parameters.choose_from(
-      section, "Initial stress", "none", "none|uniform|geostatic|hydrostatic",
-      "Stress before the first step: none, uniform, that of a layer at rest, or that of a fluid at rest.");
+    stress_kind =
+      parameters.choose_from(section, "Initial stress", "none", "none|uniform|geostatic|hydrostatic",
+                             "Stress before the first step: none, uniform, that of a layer or of a liquid at rest.");
     if (stress_kind == "uniform")
     {
       uniform_stress.assign(6, 0.);
@@ -39,7 +39,7 @@ namespace Talus
                     "Uniform initial stress xx, yy, zz, xy, xz, yz, tension positive [stress].", prm,
                     Patterns::List(Patterns::Double(), 6, 6));
     }
-    else if (stress_kind != "none")
+    else if (is_layered())
     {
       add_parameter("Unit weight", unit_weight, "Density times gravity [force/volume].", prm, Patterns::Double());
       add_parameter("Surface level", surface_level, "Height of the free surface on the vertical axis [length].", prm,
@@ -60,7 +60,7 @@ namespace Talus
     if (!velocity_gradient.empty() && velocity_gradient.size() != dim * dim)
       throw EntryError(get_section_name(), "Velocity gradient",
                        "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
-    if ((stress_kind == "geostatic" || stress_kind == "hydrostatic") && !(unit_weight > 0))
+    if (is_layered() && !(unit_weight > 0))
       throw EntryError(get_section_name(), "Unit weight", "it must be positive: give density times gravity.");
   }
 
@@ -99,13 +99,14 @@ namespace Talus
     std::array<double, 6> stress{};
     if (stress_kind == "uniform")
       std::copy(uniform_stress.begin(), uniform_stress.end(), stress.begin());
-    else if (stress_kind != "none")
+    else if (is_layered())
     {
       const unsigned int vertical = vertical_axis[0] - 'x';
       const double       sigma_v  = -unit_weight * std::max(0., surface_level - x[vertical]);
-      const double       K0       = stress_kind == "hydrostatic" ? 1. :
-                                    rest_stress_ratio < 0        ? material.rest_stress_ratio() :
-                                                                   rest_stress_ratio;
+      // In a liquid at rest the pressure is the same in all directions.
+      const double K0 = stress_kind == "hydrostatic" ? 1 :
+                        rest_stress_ratio < 0        ? material.rest_stress_ratio() :
+                                                       rest_stress_ratio;
       for (unsigned int d = 0; d < 3; ++d)
         stress[d] = d == vertical ? sigma_v : K0 * sigma_v;
     }

@@ -283,6 +283,7 @@ namespace Talus
     for (const auto &[rank, message] : received)
       for (unsigned int i = 0; i + n <= message.size(); i += n)
         arrivals.push_back(&message[i]);
+    ++arrangement;
     std::sort(arrivals.begin(), arrivals.end(), [](const double *a, const double *b) { return a[0] < b[0]; });
 
     // Arrivals take the places of leavers; what is left over is at the end.
@@ -333,6 +334,7 @@ namespace Talus
   template <int dim>
   void Particles<dim>::sort(const std::vector<bool> &is_gone)
   {
+    ++arrangement;
     // Counting sort by material and cell; particles are few in each, and mostly in order.
     const auto               &lattice = grid->lattice;
     const unsigned int        n_cells = lattice.cell.size(), n_materials = this->material_begin.size() - 1;

@@ -43,6 +43,19 @@ namespace Talus
       bool        contains(const Point<dim> &) const override { return true; }
       std::string position_entry() const override { return "Lower corner"; }
 
+      std::vector<std::string> face_names() const override
+      {
+        std::vector<std::string> names = {"x-", "x+", "y-", "y+"};
+        if (dim == 3)
+          names.insert(names.end(), {"z-", "z+"});
+        return names;
+      }
+      Surface<dim> face(const std::string &name, const SurfaceSpacing<dim> &spacing) const override
+      {
+        const unsigned int number = 2 * (name[0] - 'x') + (name[1] == '+');
+        return box_face(to_point<dim>(lower), to_point<dim>(upper), number, spacing);
+      }
+
     private:
       std::vector<double> lower = std::vector<double>(dim, 0.), upper = std::vector<double>(dim, 1.);
     };
@@ -69,6 +82,12 @@ namespace Talus
       }
       bool        contains(const Point<dim> &x) const override { return x.distance(to_point<dim>(centre)) < radius; }
       std::string position_entry() const override { return "Centre"; }
+
+      std::vector<std::string> face_names() const override { return {"side"}; }
+      Surface<dim>             face(const std::string &, const SurfaceSpacing<dim> &spacing) const override
+      {
+        return sphere(to_point<dim>(centre), radius, spacing);
+      }
 
     private:
       std::vector<double> centre = std::vector<double>(dim, 0.);
@@ -111,6 +130,14 @@ namespace Talus
         return r.norm() < radius;
       }
       std::string position_entry() const override { return "Centre"; }
+
+      std::vector<std::string> face_names() const override { return {"side", "base", "top"}; }
+      Surface<dim>             face(const std::string &name, const SurfaceSpacing<dim> &spacing) const override
+      {
+        const Point<dim> base = to_point<dim>(centre);
+        return name == "side" ? cylinder_side(base, radius, height, along(), spacing) :
+                                cylinder_end(base, radius, height, along(), name == "top", spacing);
+      }
 
     private:
       unsigned int along() const { return axis[0] - 'x'; }

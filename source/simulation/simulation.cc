@@ -30,7 +30,7 @@ namespace Talus
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
-    model{grid, particles, *kernel, *transfer, boundary, materials, acceleration}, probes(parameters),
+    model{grid, particles, *kernel, *transfer, boundary, materials, acceleration, tractions}, probes(parameters),
     acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->attach(grid.lattice,
@@ -56,6 +56,9 @@ namespace Talus
     for (const auto &name : boundary.names)
       boundary.conditions.push_back(
         parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", "Kind of condition."));
+    tractions.names = parameters.names("/Tractions", "Names of the tractions; each has a subsection of its name.");
+    for (const auto &name : tractions.names)
+      tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
     transfer->add_fields(particles);
     add_reference(parameters, material_names);
 
@@ -135,6 +138,8 @@ namespace Talus
     transfer->initialize(*kernel, particles);
     for (auto &condition : boundary.conditions)
       condition->attach(grid);
+    for (auto &traction : tractions.loads)
+      traction->attach(grid, bodies, particles);
     now = survey(model, time, dt);
     energy.start(now, totals(particles, *transfer, materials, communicator).strain_energy);
   }
@@ -158,11 +163,17 @@ namespace Talus
       columns.push_back(column);
     columns.push_back({"body force work", "energy"});
     columns.push_back({"condition work", "energy"});
+    columns.push_back({"traction work", "energy"});
+    columns.push_back({"damping energy", "energy"});
+    columns.push_back({"energy residual", "energy"});
     for (unsigned int d = 0; d < dim; ++d)
       columns.push_back({std::string("lost momentum ") + "xyz"[d], "mass length/time"});
     for (const auto &name : boundary.names)
       for (unsigned int d = 0; d < dim; ++d)
         columns.push_back({"reaction " + name + " " + "xyz"[d], "force"});
+    for (const auto &name : tractions.names)
+      for (unsigned int d = 0; d < dim; ++d)
+        columns.push_back({"traction " + name + " " + "xyz"[d], "force"});
     statistics.open(output.directory() + "/statistics.csv", columns, communicator);
 
     say(summary());
@@ -189,14 +200,20 @@ namespace Talus
   void Simulation<dim>::write_statistics()
   {
     std::vector<double> row    = {time, static_cast<double>(step), dt};
-    const auto          totals = Talus::totals(particles, *transfer, materials, communicator).values();
-    row.insert(row.end(), totals.begin(), totals.end());
+    const auto          totals = Talus::totals(particles, *transfer, materials, communicator);
+    const auto          values = totals.values();
+    row.insert(row.end(), values.begin(), values.end());
     row.push_back(energy.body_force_work);
     row.push_back(energy.condition_work);
+    row.push_back(energy.traction_work);
+    row.push_back(energy.damping_energy);
+    row.push_back(energy.residual(totals.kinetic_energy, totals.strain_energy));
     for (unsigned int d = 0; d < dim; ++d)
       row.push_back(lost_momentum[d]);
     for (const auto &reaction : now.reactions)
       row.insert(row.end(), reaction.begin_raw(), reaction.end_raw());
+    for (const auto &force : now.traction_forces)
+      row.insert(row.end(), force.begin_raw(), force.end_raw());
     statistics.write_row(row);
   }
 

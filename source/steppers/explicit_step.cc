@@ -15,11 +15,12 @@ namespace Talus
   template <int dim>
   Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing)
   {
-    auto &[grid, particles, kernel, transfer, boundary, materials, acceleration] = model;
+    auto &[grid, particles, kernel, transfer, boundary, materials, acceleration, tractions] = model;
     {
       Timing::Scope scope(timing.timing, timing.particle_to_grid);
       grid.clear();
       transfer.particle_to_grid(particles, kernel, acceleration, time, grid);
+      tractions.apply(particles, kernel, time, grid);
     }
     {
       Timing::Scope scope(timing.timing, timing.grid);
@@ -55,6 +56,7 @@ namespace Talus
       }
     }
     Timing::Scope scope(timing.timing, timing.relocate);
+    tractions.finish(particles);
     return surveyor.finish(displacement);
   }
 

@@ -125,6 +125,12 @@ namespace Talus
       sums.insert(sums.end(), condition->reaction.begin_raw(), condition->reaction.end_raw());
       sums.push_back(condition->work);
     }
+    sums.push_back(-model.boundary.damping.work);
+    for (const auto &traction : model.tractions.loads)
+    {
+      sums.insert(sums.end(), traction->force.begin_raw(), traction->force.end_raw());
+      sums.push_back(traction->work);
+    }
     reduce(maxima, sums, model.grid.communicator);
 
     Survey<dim> result;
@@ -138,13 +144,22 @@ namespace Talus
     auto next                = sums.begin() + 3;
     for (unsigned int d = 0; d < dim; ++d)
       result.lost_momentum[d] = *next++;
+    const auto next_vector = [&] {
+      Tensor<1, dim> vector;
+      for (unsigned int d = 0; d < dim; ++d)
+        vector[d] = *next++;
+      return vector;
+    };
     for (unsigned int c = 0; c < model.boundary.conditions.size(); ++c)
     {
-      Tensor<1, dim> reaction;
-      for (unsigned int d = 0; d < dim; ++d)
-        reaction[d] = *next++;
-      result.reactions.push_back(reaction);
+      result.reactions.push_back(next_vector());
       result.works.push_back(*next++);
+    }
+    result.damping_energy = *next++;
+    for (unsigned int l = 0; l < model.tractions.loads.size(); ++l)
+    {
+      result.traction_forces.push_back(next_vector());
+      result.traction_work += *next++;
     }
     return result;
   }
@@ -248,6 +263,8 @@ namespace Talus
     body_force_work += dt * survey.body_force_power;
     for (const double work : survey.works)
       condition_work += work;
+    traction_work += survey.traction_work;
+    damping_energy += survey.damping_energy;
     compare("kinetic energy", survey.kinetic_energy, step, time, dt, [&] {
       std::vector<double> speeds(model.particles.size());
       for (unsigned int p = 0; p < speeds.size(); ++p)
@@ -273,14 +290,15 @@ namespace Talus
   void EnergyWatch<dim>::compare(const std::string &name, const double energy, const unsigned int step,
                                  const double time, const double dt, const std::function<std::string()> &culprit) const
   {
-    const double available = initial_energy + body_force_work + condition_work;
+    // Not less what damping took: where little is left, the errors of what was put in would count.
+    const double available = initial_energy + body_force_work + condition_work + traction_work;
     if (energy <= 2 * std::max(available, 0.) + floor)
       return;
     std::ostringstream message;
     message << "The " << name << " " << energy << " in step " << step << ", t = " << time << ", dt = " << dt
             << " is more than twice the " << available
-            << " that initial state, body force and conditions account for: the run is unstable. " << culprit()
-            << ". Lower the Courant number, or correct the kernels near the boundary.";
+            << " that initial state, body force, tractions and conditions account for: the run is unstable. "
+            << culprit() << ". Lower the Courant number, or correct the kernels near the boundary.";
     throw RunError(message.str());
   }
 

@@ -51,7 +51,9 @@ def scales(header, columns):
     result = []
     for name, magnitude in zip(header, magnitudes):
         unit_magnitude = of_unit[name[name.find("["):]]
-        result.append(unit_magnitude if magnitude < ROUND_OFF * unit_magnitude else magnitude)
+        # A residual is a difference of columns: it has their round-off, however small it is itself.
+        is_small = magnitude < ROUND_OFF * unit_magnitude or "residual" in name
+        result.append(unit_magnitude if is_small else magnitude)
     return result
 
 

@@ -75,6 +75,12 @@ def wrong_entry(name, old, new, entry, *message):
     return Case(name, [(old, new)], [r"FILE:LINE: ", f"entry '{entry}'", *message])
 
 
+def wrong_traction(name, text, entry, *message):
+    section = "subsection Tractions\n  set Names = load\n  subsection load\n    # here\n  end\nend\n"
+    return Case(name, [("subsection Output\n", section + "subsection Output\n"), ("    # here", text)],
+                [r"FILE:LINE: ", f"entry '{entry}' in section 'Tractions/load'", *message])
+
+
 CASES = {
     "command_line": [
         Case("no file", [], ["No parameter file given", "Try talus --help"], arguments=[]),
@@ -116,7 +122,8 @@ CASES = {
         wrong_entry("full damping", "set Courant number = 0.5", "set Local damping = 1", "Local damping",
                     "between 0 and 1"),
         wrong_entry("negative friction", "    set Type = velocity",
-                    "    set Friction coefficient = -0.1\n    set Type = friction", "Friction coefficient", "must not be negative"),
+                    "    set Friction coefficient = -0.1\n    set Type = friction", "Friction coefficient",
+                    "must not be negative"),
         wrong_entry("boundary id of 3D", "set Boundary ids = 2", "set Boundary ids = 5", "Boundary ids",
                     "a whole number between 0 and 3"),
     ],
@@ -183,6 +190,13 @@ CASES = {
         wrong_entry("condition that never acts", "    set Boundary ids = 2",
                     "    set End time = 1\n    set Start time = 2\n    set Boundary ids = 2", "End time", "never acts",
                     "after the start time"),
+        wrong_traction("face that does not exist", "    set Faces = top", "Faces", "has no face 'top'",
+                       r"Choices: all, x-, x\+, y-, y\+"),
+        wrong_traction("traction that acts nowhere", "    set Lower corner = 0.5, 0.4\n    set Upper corner = 1, 0.6",
+                       "Lower corner", "no point of the surface", "Make it larger"),
+        wrong_traction("traction on no body", "    set Body = blok", "Body", "Did you mean 'block'"),
+        wrong_traction("force off the body", "    set Position = 1.9, 0.9\n    set Type = force", "Position",
+                       "no particle of 'block'", "Move it to the body"),
         wrong_entry("unknown field", "set Directory = output", "set Particle fields = presure", "Particle fields",
                     "presure", "pressure"),
     ],

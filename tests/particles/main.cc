@@ -13,6 +13,7 @@ DECLARE(synchronise)
 DECLARE(far_away)
 DECLARE(drift)
 DECLARE(outside)
+DECLARE(surfaces)
 
 int main(int argc, char **argv)
 {
@@ -36,5 +37,7 @@ int main(int argc, char **argv)
                     {"drift 2D", drift<2>},
                     {"drift 3D", drift<3>},
                     {"outside 2D", outside<2>},
-                    {"outside 3D", outside<3>}});
+                    {"outside 3D", outside<3>},
+                    {"surfaces 2D", surfaces<2>},
+                    {"surfaces 3D", surfaces<3>}});
 }

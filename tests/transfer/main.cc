@@ -13,6 +13,9 @@ DECLARE(flip_after_condition)
 DECLARE(motion)
 DECLARE(nodal_force)
 DECLARE(batched_and_plain)
+DECLARE(traction_sums)
+DECLARE(traction_work)
+DECLARE(traction_errors)
 
 int main(int argc, char **argv)
 {
@@ -36,5 +39,11 @@ int main(int argc, char **argv)
                     {"nodal force 2D", nodal_force<2>},
                     {"nodal force 3D", nodal_force<3>},
                     {"batched and plain 2D", batched_and_plain<2>},
-                    {"batched and plain 3D", batched_and_plain<3>}});
+                    {"batched and plain 3D", batched_and_plain<3>},
+                    {"traction sums 2D", traction_sums<2>},
+                    {"traction sums 3D", traction_sums<3>},
+                    {"traction work 2D", traction_work<2>},
+                    {"traction work 3D", traction_work<3>},
+                    {"traction errors 2D", traction_errors<2>},
+                    {"traction errors 3D", traction_errors<3>}});
 }

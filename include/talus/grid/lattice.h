@@ -78,6 +78,15 @@ namespace Talus
       return largest;
     }
 
+    /** Square of the length of a cell's diagonal. */
+    double diagonal_square() const
+    {
+      double sum = 0;
+      for (const double spacing : h)
+        sum += spacing * spacing;
+      return sum;
+    }
+
     /** Sets the box of the tables to [lower, upper] plus padding and clears them. */
     void resize_tables(const Index &lower, const Index &upper)
     {

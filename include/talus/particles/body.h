@@ -29,6 +29,9 @@ namespace Talus
     /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */
     std::array<double, 6> initial_stress(const dealii::Point<dim> &x, const Material &material) const;
 
+    /** True when the stress grows with the depth below a surface. */
+    bool is_layered() const { return stress_kind == "geostatic" || stress_kind == "hydrostatic"; }
+
     ParsedVector<dim>   velocity;
     std::string         velocity_text;
     std::vector<double> velocity_gradient;

@@ -78,7 +78,8 @@ namespace Talus
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
     unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
 
-    std::uint64_t n_global = 0;
+    std::uint64_t n_global    = 0;
+    std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places
 
   private:
     void load(); // home -> working set

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/core/parameters.h>
+#include <talus/particles/surface.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -33,6 +34,15 @@ namespace Talus
 
     /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
     virtual std::string position_entry() const = 0;
+
+    /** Names of the faces that make up the surface; none where it is not known. */
+    virtual std::vector<std::string> face_names() const { return {}; }
+
+    /** The face called `name` in parts of about this spacing. */
+    virtual Surface<dim> face(const std::string & /*name*/, const SurfaceSpacing<dim> & /*spacing*/) const
+    {
+      return {};
+    }
 
     /** All indices are below this number. */
     virtual unsigned int n_indices() const = 0;

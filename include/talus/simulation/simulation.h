@@ -59,6 +59,7 @@ namespace Talus
     std::unique_ptr<Transfer<dim>>          transfer;
     Boundary<dim>                           boundary;
     ParsedVector<dim>                       acceleration;
+    Tractions<dim>                          tractions;
     Model<dim>                              model;
 
     Output<dim>                      output;

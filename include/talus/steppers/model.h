@@ -3,6 +3,7 @@
 #include <talus/boundary/condition.h>
 #include <talus/particles/material_range.h>
 #include <talus/particles/particles.h>
+#include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
 
 namespace Talus
@@ -18,5 +19,6 @@ namespace Talus
     Boundary<dim>                          &boundary;
     std::vector<std::unique_ptr<Material>> &materials;
     ParsedVector<dim>                      &acceleration; // body force per mass
+    Tractions<dim>                         &tractions;
   };
 } // namespace Talus

@@ -23,6 +23,10 @@ namespace Talus
 
     std::vector<dealii::Tensor<1, dim>> reactions; // of each condition in the last step [force]
     std::vector<double>                 works;     // of each condition in the last step [energy]
+
+    std::vector<dealii::Tensor<1, dim>> traction_forces;    // of each traction in the last step [force]
+    double                              traction_work  = 0; // of all tractions in the last step [energy]
+    double                              damping_energy = 0; // taken by local damping in the last step [energy]
   };
 
   /** Makes a survey, one block of particles after the other. */
@@ -99,8 +103,17 @@ namespace Talus
     void check_total(const Model<dim> &model, const Survey<dim> &survey, const double strain_energy,
                      const unsigned int step, const double time, const double dt) const;
 
+    /** Kinetic and strain energy beyond what was there or was put in; negative is what the scheme has lost [energy]. */
+    double residual(const double kinetic_energy, const double strain_energy) const
+    {
+      return kinetic_energy + strain_energy + damping_energy -
+             (initial_energy + body_force_work + condition_work + traction_work);
+    }
+
     double body_force_work = 0; // [energy]
     double condition_work  = 0; // [energy]
+    double traction_work   = 0; // [energy]
+    double damping_energy  = 0; // taken by local damping [energy]
 
   private:
     /** Throws when `energy`, called `name`, is too large; then asks `culprit` for the particle. */

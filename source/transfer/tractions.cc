@@ -1,0 +1,301 @@
+#include <talus/core/exceptions.h>
+#include <talus/transfer/tractions.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The names as Patterns::Selection reads them: "a|b|c". */
+    std::string choice(const std::vector<std::string> &names)
+    {
+      std::string selection;
+      for (const auto &name : names)
+        selection += (selection.empty() ? "" : "|") + name;
+      return selection;
+    }
+
+    /** `text` once for each component. */
+    std::string repeated(const std::string &text, const unsigned int n)
+    {
+      std::string list = text;
+      for (unsigned int d = 1; d < n; ++d)
+        list += "; " + text;
+      return list;
+    }
+
+    /** A particle near a point: squared distance, id, position. */
+    template <int dim>
+    using Candidate = std::array<double, 2 + dim>;
+
+    /** The particle of a body next to each point; of equally near ones that of lowest id, on any number of ranks. */
+    template <int dim>
+    std::vector<Candidate<dim>> nearest_particles(const std::vector<Point<dim>> &points,
+                                                  const Particles<dim> &particles, const unsigned int body,
+                                                  MPI_Comm communicator)
+    {
+      namespace bgi = boost::geometry::index;
+      using Entry   = std::pair<Point<dim>, unsigned int>;
+      std::vector<Entry> entries;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        if (particles.body[p] == body)
+          entries.emplace_back(Point<dim>(particles.vector(particles.position, p)), p);
+      const auto tree = pack_rtree(entries);
+
+      std::vector<Candidate<dim>> best(points.size());
+      for (unsigned int k = 0; k < points.size(); ++k)
+      {
+        best[k].fill(std::numeric_limits<double>::max());
+        for (const Entry &entry : tree | bgi::adaptors::queried(bgi::nearest(points[k], 1u << (dim + 1))))
+        {
+          Candidate<dim> candidate;
+          candidate[0] = (entry.first - points[k]).norm_square();
+          candidate[1] = particles.id[entry.second];
+          for (unsigned int d = 0; d < dim; ++d)
+            candidate[2 + d] = entry.first[d];
+          best[k] = std::min(best[k], candidate);
+        }
+      }
+      for (const auto &others : Utilities::MPI::all_gather(communicator, best))
+        for (unsigned int k = 0; k < points.size(); ++k)
+          best[k] = std::min(best[k], others[k]);
+      return best;
+    }
+  } // namespace
+
+  template <int dim>
+  Traction<dim>::Traction(Parameters &parameters, const std::string &name, const std::vector<std::string> &body_names) :
+    ParameterAcceptor("/Tractions/" + name), function_text(repeated("0", dim))
+  {
+    const std::string section = get_section_name();
+    kind                      = parameters.choose_from(section, "Type", "traction", "traction|pressure|force",
+                                                       "Force per initial area, pressure on the deformed one, or force at a point.");
+    body_name =
+      parameters.choose_from(section, "Body", body_names.front(), choice(body_names), "Name of the loaded body.");
+    if (kind == "traction")
+      add_parameter("Traction", function_text,
+                    "Force per initial area [stress]: functions of x, y, z, t, separated by ';'.");
+    else if (kind == "force")
+    {
+      add_parameter("Force", function_text, "Force [force]: functions of x, y, z, t, separated by ';'.");
+      add_parameter("Position", position, "Where the force acts at the start [length]; it moves with the body.", prm,
+                    Patterns::List(Patterns::Double(), dim, dim));
+    }
+    else
+    {
+      function_text = "0";
+      add_parameter("Pressure", function_text, "Pressure, positive in compression [stress]: function of x, y, z, t.");
+    }
+    if (kind == "force")
+      return;
+    n_layers = 4;
+    add_parameter("Layers", n_layers,
+                  "Number of layers of particles that take up the load: more make the stress below it more even.", prm,
+                  Patterns::Integer(1, 64));
+    add_parameter("Faces", faces, "Parts of the body's surface: 'all', or names that depend on its shape.", prm,
+                  Patterns::List(Patterns::Anything(), 1));
+    add_parameter("Lower corner", lower, "With 'Upper corner': only what lies in this box at the start [length].", prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Upper corner", upper, "With 'Lower corner': only what lies in this box at the start [length].", prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Points per cell edge", points_per_cell, "Number of surface points along the edge of a cell.", prm,
+                  Patterns::Integer(1, 16));
+  }
+
+  template <int dim>
+  void Traction<dim>::parse_parameters(ParameterHandler &)
+  {
+    const std::string entry = kind == "traction" ? "Traction" : kind == "force" ? "Force" : "Pressure";
+    if (kind == "pressure" && function_text.find(';') != std::string::npos)
+      throw EntryError(get_section_name(), entry,
+                       "expected one expression, found '" + function_text + "'. It acts along the surface's normal.");
+    function.initialize(kind == "pressure" ? repeated(function_text, dim) : function_text, get_section_name(), entry);
+    if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
+      throw EntryError(get_section_name(), "Lower corner",
+                       "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+  }
+
+  template <int dim>
+  void Traction<dim>::attach(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                             const Particles<dim> &particles)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b]->name == body_name)
+        find_anchors(surface(grid, *bodies[b]), grid, b, particles);
+    arrangement = 0;
+  }
+
+  template <int dim>
+  Surface<dim> Traction<dim>::surface(const Grid<dim> &grid, const Body<dim> &body) const
+  {
+    Surface<dim> surface;
+    if (kind == "force")
+    {
+      surface.resize(1);
+      for (unsigned int d = 0; d < dim; ++d)
+        surface[0].x[d] = position[d];
+      return surface;
+    }
+    SurfaceSpacing<dim> spacing;
+    for (unsigned int d = 0; d < dim; ++d)
+      spacing[d] = grid.lattice.h[d] / points_per_cell;
+    const auto names = body.shape->face_names();
+    if (names.empty())
+      throw EntryError(get_section_name(), "Body",
+                       "the shape of '" + body.name +
+                         "' has no surface that carries a load. Use a point force, or "
+                         "another shape.");
+    for (const auto &face : faces)
+      if (face != "all" && std::find(names.begin(), names.end(), face) == names.end())
+        throw EntryError(get_section_name(), "Faces",
+                         "'" + body.name + "' has no face '" + face + "'. Choices: all, " +
+                           Patterns::Tools::to_string(names) + ".");
+    for (const auto &name : names)
+      if (std::find(faces.begin(), faces.end(), "all") != faces.end() ||
+          std::find(faces.begin(), faces.end(), name) != faces.end())
+        for (const auto &point : body.shape->face(name, spacing))
+        {
+          bool is_inside = true;
+          for (unsigned int d = 0; d < lower.size(); ++d)
+            is_inside = is_inside && point.x[d] >= lower[d] && point.x[d] <= upper[d];
+          if (is_inside)
+            surface.push_back(point);
+        }
+    if (surface.empty())
+      throw EntryError(
+        get_section_name(), "Lower corner",
+        "no point of the surface lies in this box. Make it larger, or ask for more points per cell edge.");
+    return surface;
+  }
+
+  template <int dim>
+  void Traction<dim>::find_anchors(const Surface<dim> &surface, const Grid<dim> &grid, const unsigned int body,
+                                   const Particles<dim> &particles)
+  {
+    std::vector<dealii::Point<dim>> middles;
+    anchors.clear();
+    for (const auto &point : surface)
+      for (unsigned int k = 0; k < n_layers; ++k)
+      {
+        Anchor             anchor{0, point.x, Tensor<1, dim>(), point.area};
+        dealii::Point<dim> middle = point.x;
+        if (kind != "force")
+        {
+          const Tensor<1, dim> N   = point.area / point.area.norm();
+          double               sum = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            sum += std::pow(N[d] * points_per_cell * grid.lattice.inverse_h[d], 2);
+          const double thickness = 1 / std::sqrt(sum);
+          anchor.arm             = thickness * (1 - (k + 0.5) / n_layers) * N;
+          middle -= (k + 0.5) * thickness * N;
+        }
+        anchors.push_back(anchor);
+        middles.push_back(middle);
+      }
+
+    const auto best = nearest_particles(middles, particles, body, grid.communicator);
+    for (unsigned int a = 0; a < anchors.size(); ++a)
+    {
+      dealii::Point<dim> host;
+      for (unsigned int d = 0; d < dim; ++d)
+        host[d] = best[a][2 + d];
+      anchors[a].host = static_cast<types::particle_index>(best[a][1]);
+      anchors[a].offset -= host;
+      anchors[a].arm += (middles[a] - host) / n_layers;
+    }
+    if (kind == "force" && best[0][0] > grid.lattice.diagonal_square())
+      throw EntryError(get_section_name(), "Position",
+                       "no particle of '" + body_name +
+                         "' lies within a cell's diagonal of this point. Move it to the body.");
+    std::stable_sort(anchors.begin(), anchors.end(), [](const Anchor &a, const Anchor &b) { return a.host < b.host; });
+  }
+
+  template <int dim>
+  void Traction<dim>::find_local_hosts(const Particles<dim> &particles)
+  {
+    hosts.clear();
+    for (unsigned int p = 0; p < particles.size(); ++p)
+    {
+      const auto begin = std::lower_bound(anchors.begin(), anchors.end(), particles.id[p],
+                                          [](const Anchor &anchor, const auto id) { return anchor.host < id; });
+      auto       end   = begin;
+      while (end != anchors.end() && end->host == particles.id[p])
+        ++end;
+      if (begin == end)
+        continue;
+      Host host;
+      host.p     = p;
+      host.begin = begin - anchors.begin();
+      host.end   = end - anchors.begin();
+      hosts.push_back(host);
+    }
+    arrangement = particles.arrangement;
+  }
+
+  template <int dim>
+  Tensor<1, dim> Traction<dim>::point_force(const Anchor &anchor, const Host &host, const double time) const
+  {
+    const dealii::Point<dim> x(host.x + host.F * anchor.offset);
+    const Tensor<1, dim>     value = function.value(x, time);
+    if (kind == "force")
+      return value;
+    if (kind == "traction")
+      return value * anchor.area.norm();
+    // Nanson: da = J F^-T dA
+    return -value[0] * determinant(host.F) * (transpose(invert(host.F)) * anchor.area);
+  }
+
+  template <int dim>
+  void Traction<dim>::apply(const Particles<dim> &particles, const Kernel<dim> &kernel, const double time,
+                            Grid<dim> &grid)
+  {
+    using Fields = NodalFields<dim>;
+    if (arrangement != particles.arrangement)
+      find_local_hosts(particles);
+    force = 0;
+    Stencil<dim> stencil;
+    for (Host &host : hosts)
+    {
+      host.x      = particles.vector(particles.position, host.p);
+      host.F      = particles.matrix(particles.F, host.p);
+      host.force  = 0;
+      host.moment = 0;
+      for (unsigned int s = host.begin; s < host.end; ++s)
+      {
+        const Tensor<1, dim> f = point_force(anchors[s], host, time);
+        host.force += f / n_layers;
+        host.moment += outer_product(f, anchors[s].arm);
+      }
+      force += host.force;
+      const Tensor<2, dim> flux = host.moment * transpose(host.F);
+      kernel.evaluate(particles, host.p, host.p + 1, &stencil);
+      for (unsigned int k = 0; k < stencil.size; ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          double f = stencil.weight[k] * host.force[d];
+          for (unsigned int e = 0; e < dim; ++e)
+            f += flux[d][e] * stencil.gradient[e][k];
+          grid.fields[stencil.node[k]][Fields::force + d] += f;
+        }
+    }
+  }
+
+  template <int dim>
+  void Traction<dim>::finish(const Particles<dim> &particles)
+  {
+    work = 0;
+    for (const Host &host : hosts)
+      work += host.force * (particles.vector(particles.position, host.p) - host.x) +
+              scalar_product(host.moment, particles.matrix(particles.F, host.p) - host.F);
+  }
+
+  template class Traction<2>;
+  template class Traction<3>;
+} // namespace Talus
