@@ -5,6 +5,7 @@ import dataclasses
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import time
@@ -47,15 +48,41 @@ class Result:
         lines = [line for line in (self.directory / "output.txt").read_text().splitlines() if line.startswith("talus: ")]
         return lines[-1] if lines else f"exit status {self.status}"
 
-    def particles(self):
-        """The columns of the last particle table by name, in the order of the ids."""
-        path = sorted(self.directory.glob("particles_*.csv"))[-1]
+    def particles(self, time=None):
+        """The columns of the last particle table by name, in the order of the ids; or of the one closest to a time."""
+        paths = sorted(self.directory.glob("particles_*.csv"))
+        path = paths[-1] if time is None else min(paths, key=lambda path: abs(table_time(path) - time))
         with open(path) as file:
             lines = (line for line in file if not line.startswith("#"))
             names = next(lines).strip().split(",")
             values = np.loadtxt(lines, delimiter=",", ndmin=2)
         values = values[np.argsort(values[:, names.index("id")])]
         return {name: values[:, column] for column, name in enumerate(names)}
+
+    def statistics(self):
+        """The columns of statistics.csv by name, without units."""
+        with open(self.directory / "statistics.csv") as file:
+            lines = (line for line in file if not line.startswith("#"))
+            names = [name.split(" [")[0].replace("_", " ") for name in next(lines).strip().split(",")]
+            values = np.loadtxt(lines, delimiter=",", ndmin=2)
+        return {name: values[:, column] for column, name in enumerate(names)}
+
+    @property
+    def has_failed(self):
+        """Ended by a criterion of failure, in one sentence: what is expected of some runs."""
+        return self.status == 2
+
+    def failure_time(self):
+        """When the run failed, as its message says; NaN if it did not."""
+        found = re.search(r"\bt = ([0-9.eE+-]+)", self.message) if self.has_failed else None
+        return float(found[1].rstrip(".,")) if found else math.nan
+
+
+def table_time(path):
+    """The time in the first line of a particle table."""
+    with open(path) as file:
+        found = re.search(r"time ([0-9.eE+-]+)", file.readline())
+    return float(found[1]) if found else math.inf
 
 
 def command(prm, settings, ranks=1):

@@ -28,8 +28,8 @@ namespace Talus
 
     // Comparisons are written so that NaN fails them.
     bool             is_finite(const double x) { return x <= std::numeric_limits<double>::max(); }
-    constexpr double largest_volume_ratio = 10, largest_increment = 0.5;
-    bool             is_valid_volume_ratio(const double J) { return J > 0 && J <= largest_volume_ratio; }
+    constexpr double largest_increment = 0.5;
+    bool             is_valid_volume_ratio(const double J, const double largest) { return J > 0 && J <= largest; }
     bool             is_valid_increment(const double grad_v_dt) { return grad_v_dt <= largest_increment; }
   } // namespace
 
@@ -58,10 +58,12 @@ namespace Talus
     for (unsigned int m = 0; m < ranges.size(); ++m)
     {
       const MaterialRange range = intersection(ranges[m], begin, end);
-      if (range.begin < range.end)
-        model.materials[m]->wave_speeds(range, speeds.data() + (range.begin - begin));
+      if (range.begin == range.end)
+        continue;
+      model.materials[m]->wave_speeds(range, speeds.data() + (range.begin - begin));
+      const double largest = model.materials[m]->largest_volume_ratio();
+      for_each_batch(range.begin, range.end, [&](const auto batch) { look_at(batch, speeds.data() - begin, largest); });
     }
-    for_each_batch(begin, end, [&](const auto batch) { look_at(batch, speeds.data() - begin); });
 
     if (model.acceleration.depends_on_space())
       for (unsigned int p = begin; p < end; ++p)
@@ -74,7 +76,7 @@ namespace Talus
 
   template <int dim>
   template <class Batch>
-  void Surveyor<dim>::look_at(const Batch &batch, const double *speeds)
+  void Surveyor<dim>::look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio)
   {
     const auto   v_p = load_vector<dim>(batch, v);
     const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
@@ -178,9 +180,13 @@ namespace Talus
   {
     const Particles<dim> &particles = model.particles;
     using Report                    = std::pair<types::particle_index, std::string>;
-    Report first(std::numeric_limits<types::particle_index>::max(), "");
+    Report       first(std::numeric_limits<types::particle_index>::max(), "");
+    unsigned int m = 0; // material of p
     for (unsigned int p = 0; p < particles.size(); ++p)
     {
+      while (p >= particles.material_begin[m + 1])
+        ++m;
+      const double       largest    = model.materials[m]->largest_volume_ratio();
       const double       J          = determinant(particles.matrix(particles.F, p));
       const double       increment  = dt * particles.matrix(particles.grad_v, p).norm();
       bool               is_outside = false;
@@ -191,8 +197,8 @@ namespace Talus
                           model.grid.lattice.coordinate(particles.component(particles.position, d)[p], d), d);
       if (!is_finite(magnitude(particles, p)))
         what << "has a velocity or stress that is not a finite number";
-      else if (!is_valid_volume_ratio(J))
-        what << "has the volume ratio J = " << J << ", outside (0, 10]";
+      else if (!is_valid_volume_ratio(J, largest))
+        what << "has the volume ratio J = " << J << ", outside (0, " << largest << "]";
       else if (!is_valid_increment(increment))
         what << "deforms by |grad v| dt = " << increment << " in one step, more than 0.5";
       else if (is_outside)

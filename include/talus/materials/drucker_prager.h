@@ -2,6 +2,8 @@
 
 #include <talus/materials/elastic_material.h>
 
+#include <limits>
+
 namespace Talus
 {
   /**
@@ -25,6 +27,9 @@ namespace Talus
       return {"equivalent plastic strain", "volumetric plastic strain"};
     }
     void update(const MaterialRange &range) const override;
+
+    /** Loose grains at the apex fly apart without stress, as far as they like. */
+    double largest_volume_ratio() const override { return std::numeric_limits<double>::max(); }
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 

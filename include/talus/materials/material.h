@@ -59,6 +59,9 @@ namespace Talus
     /** Density in the initial state at a pressure that is there from the start [mass/volume]. */
     virtual double initial_density(const double /* pressure */) const { return density; }
 
+    /** A particle that has expanded beyond this volume ratio J has not stayed in one piece: the run has failed [1]. */
+    virtual double largest_volume_ratio() const { return 10; }
+
     /** Viscosity over density [length^2/time], which limits the step size as well; 0: it has none. */
     virtual double kinematic_viscosity() const { return 0; }
 

@@ -46,7 +46,7 @@ namespace Talus
     using Number = Simd<native_width>;
 
     template <class Batch>
-    void look_at(const Batch &batch, const double *speeds);
+    void look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio);
 
     Model<dim>                       &model;
     const std::vector<MaterialRange> &ranges;

@@ -1,0 +1,98 @@
+"""Collapse of a column of sand, Nakamura et al. (2023), section 5.5."""
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import report
+from runs import Run
+
+TITLE = "collapse of a sand column (2D): run-out, height, kinetic energy; uncorrected runs must fail"
+
+WIDTH, H = 0.1, 0.01  # half width of the column, spacing [m]
+
+
+def run(kernel, transfer, treatment, courant=1.0):
+    return Run("prm/column.prm",
+               {"Kernel/Type": kernel, "Transfer/Type": transfer, "Kernel/Boundary treatment": treatment,
+                "Run/Courant number": courant},
+               {"kernel": kernel, "transfer": transfer, "treatment": treatment, "Cr": courant})
+
+
+def runs():
+    return ([run("quadratic B-spline", transfer, "WLS") for transfer in ("FLIP", "APIC", "TPIC")]
+            + [run("uGIMP", transfer, "WLS") for transfer in ("APIC", "TPIC", "FLIP")]
+            + [run("uGIMP", "FLIP", "WLS", 0.7)]
+            + [run("quadratic B-spline", transfer, "Steffen") for transfer in ("APIC", "TPIC")])
+
+
+def run_out(particles):
+    x = np.sort(particles["x"])
+    return (x[int(0.99 * (len(x) - 1))] - WIDTH) / WIDTH
+
+
+def height(particles):
+    return np.max(particles["y"][particles["x"] < 2 * H])
+
+
+def end(result, function):
+    return function(result.particles()) if result.status == 0 else math.nan
+
+
+def kinetic_energy(result):
+    return result.statistics()["kinetic energy"][-1] if result.status == 0 else math.nan
+
+
+def mean_J(particles):
+    return np.mean(particles["volume_ratio"])
+
+
+def table(results):
+    return [{**result.run.label, "run-out": end(result, run_out), "height": end(result, height),
+             "mean J": end(result, mean_J), "kinetic energy": kinetic_energy(result), "failed at": result.failure_time()}
+            for result in results]
+
+
+def figures(results):
+    by = {tuple(result.run.label.values()): result for result in results}
+    get = lambda kernel, transfer, treatment="WLS", courant=1.0: by[kernel, transfer, treatment, courant]
+    quadratic, gimp = "quadratic B-spline", "uGIMP"
+    values = []
+    for transfer in ("APIC", "TPIC"):
+        result = get(quadratic, transfer)
+        values += [report.Figure(f"quadratic, {transfer}, run-out", end(result, run_out), 3.1, 3.5),
+                   report.Figure(f"quadratic, {transfer}, height", end(result, height), 0.13, 0.145, "m"),
+                   report.Figure(f"quadratic, {transfer}, mean J", end(result, mean_J), upper=1.05)]
+        result = get(gimp, transfer)
+        values += [report.Figure(f"uGIMP, {transfer}, run-out", end(result, run_out), 3.5, 3.9),
+                   report.Figure(f"uGIMP, {transfer}, mean J", end(result, mean_J), upper=1.10)]
+    values.append(report.Figure("kinetic energy at the end, FLIP over TPIC",
+                                kinetic_energy(get(quadratic, "FLIP")) / kinetic_energy(get(quadratic, "TPIC")), lower=100))
+    values.append(report.Figure("uGIMP, FLIP, Cr = 1, fails (time)", get(gimp, "FLIP").failure_time(), 0, 0.6, "s"))
+    values.append(report.Figure("uGIMP, FLIP, Cr = .7, runs (exit status)", get(gimp, "FLIP", "WLS", 0.7).status, 0, 0))
+    for transfer in ("APIC", "TPIC"):
+        values.append(report.Figure(f"quadratic, {transfer}, uncorrected, fails (time)",
+                                    get(quadratic, transfer, "Steffen").failure_time(), 0, 0.6, "s"))
+    return values
+
+
+def draw(results, path):
+    """The velocity's norm at three times."""
+    shown = [result for result in results if result.status == 0]
+    times = (0.15, 0.3, 0.6)
+    figure, axes = plt.subplots(len(shown), len(times), figsize=(11, 1.6 * len(shown) + 0.6), squeeze=False,
+                                layout="constrained")
+    for line, result in zip(axes, shown):
+        for axis, time in zip(line, times):
+            particles = result.particles(time)
+            speed = np.hypot(particles["velocity_x"], particles["velocity_y"])
+            drawn = axis.scatter(particles["x"], particles["y"], c=speed, s=1.5, vmin=0, vmax=1.5, cmap="viridis", linewidths=0)
+            axis.set(xlim=(0, 0.6), ylim=(0, 0.31), aspect="equal", xticks=[], yticks=[])
+            label = result.run.label
+            axis.set_title(f"{label['kernel'].split()[0]}, {label['transfer']}, Cr {label['Cr']}, t = {time} s", fontsize=8)
+    figure.colorbar(drawn, ax=list(axes.flat), label="speed [m/s]", extend="max", shrink=0.5)
+    figure.suptitle("Column of sand on a no-slip floor, h = .01, WLS")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

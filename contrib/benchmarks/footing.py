@@ -1,0 +1,122 @@
+"""Rough strip footing on clay, Nakamura et al. (2023), section 5.2, beside the J2 finite elements of the same program."""
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import report
+from runs import Run
+
+TITLE = "strip footing on clay (2D): load-displacement and slip lines, corrected and not"
+
+C, B = 1e4, 0.5  # cohesion [Pa], half width [m]: forces are those of half the footing
+CORRECTED = ["FLIP", "PIC", "APIC", "TPIC"]
+
+
+def run(h, transfer, treatment, edge):
+    width = B + (0.25 if edge == "closed" else -0.25) * h
+    return Run("prm/footing.prm",
+               {"Grid/Spacing": h, "Transfer/Type": transfer, "Kernel/Boundary treatment": treatment,
+                "Conditions/footing/Upper corner": f"{width}, 5.01"},
+               {"h": h, "transfer": transfer, "treatment": treatment, "edge": edge})
+
+
+def runs():
+    return ([run(0.05, transfer, "WLS", "open") for transfer in CORRECTED]
+            + [run(0.05, "TPIC", "WLS everywhere", "open")]
+            + [run(0.05, transfer, "Steffen", "open") for transfer in ("FLIP", "APIC", "TPIC")]
+            + [run(h, "TPIC", "WLS", "closed") for h in (0.1, 0.05, 0.025)])
+
+
+def curve(result):
+    """Time and Q/(cB)."""
+    columns = result.statistics()
+    return columns["time"], np.abs(columns["reaction footing y"]) / (C * B)
+
+
+def late(result, fraction):
+    """Mean of Q/(cB) over t > fraction T."""
+    if result.status != 0:
+        return math.nan
+    time, load = curve(result)
+    return np.mean(load[time > fraction * time[-1]])
+
+
+def slope(result):
+    return late(result, 0.9) - late(result, 0.5)
+
+
+def area_of_half(result):
+    """Area that holds half of the deviatoric strain [m^2]."""
+    if result.status != 0:
+        return math.nan
+    particles = result.particles()
+    strain = np.sort(particles["deviatoric_strain"])[::-1]
+    n = np.searchsorted(np.cumsum(strain), strain.sum() / 2) + 1
+    return 25 * n / len(strain)
+
+
+def table(results):
+    return [{**result.run.label, "Q/(cB)": late(result, 0.9), "slope": slope(result), "half strain area": area_of_half(result),
+             "failed at": result.failure_time()} for result in results]
+
+
+def figures(results):
+    by = {tuple(result.run.label.values()): result for result in results}
+    here = lambda transfer, treatment: by[0.05, transfer, treatment, "open"]
+    load = lambda transfer, treatment: late(here(transfer, treatment), 0.9)
+    values = []
+    for transfer in ("FLIP", "APIC", "TPIC"):
+        values.append(report.Figure(f"{transfer}, corrected, Q/(cB)", load(transfer, "WLS"), 5.04, 5.14))
+        values.append(report.Figure(f"{transfer}, corrected, slope", slope(here(transfer, "WLS")), upper=0.10))
+        values.append(report.Figure(f"{transfer}, corrected, area of half the strain",
+                                    area_of_half(here(transfer, "WLS")), 0.53, 0.56, "m2"))
+    corrected = [load(transfer, "WLS") for transfer in ("FLIP", "APIC", "TPIC")]
+    values.append(report.Figure("FLIP, APIC, TPIC, corrected, spread", max(corrected) - min(corrected), upper=0.03))
+    values.append(report.near("PIC, corrected, Q/(cB)", load("PIC", "WLS"), 5.192, 0.03))
+    values.append(report.Figure("MLS-MPM, Q/(cB)", load("TPIC", "WLS everywhere"), 5.20, 5.34))
+    for transfer in ("FLIP", "TPIC"):
+        values.append(report.Figure(f"{transfer}, uncorrected, Q/(cB)", load(transfer, "Steffen"), lower=5.38))
+        values.append(report.Figure(f"{transfer}, uncorrected, slope", slope(here(transfer, "Steffen")), lower=0.15))
+        values.append(report.Figure(f"{transfer}, uncorrected, area of half the strain",
+                                    area_of_half(here(transfer, "Steffen")), lower=0.70, unit="m2"))
+    values.append(report.Figure("APIC, uncorrected, fails (time)", here("APIC", "Steffen").failure_time(), 0, 0.1, "s"))
+    for h, expected in ((0.1, 5.92), (0.05, 5.61), (0.025, 5.42)):
+        values.append(report.near(f"TPIC, corrected, closed, h = {h}, Q/(cB)",
+                                  late(by[h, "TPIC", "WLS", "closed"], 0.9), expected, 0.01 * expected))
+    return values
+
+
+def draw(results, path):
+    """Load against displacement, and the deviatoric strain near the footing."""
+    opened = [result for result in results if result.run.label["edge"] == "open"]
+    maps = [result for result in opened if result.status == 0 and result.run.label["transfer"] in ("FLIP", "TPIC")]
+    figure = plt.figure(figsize=(12, 7), layout="constrained")
+    grid = figure.add_gridspec(2, max(3, len(maps) - 2))
+    axis = figure.add_subplot(grid[0, :2])
+    for result in opened:
+        if result.status == 0:
+            time, load = curve(result)
+            label = result.run.label
+            axis.plot(4 * time, load, lw=1, ls="-" if label["treatment"] == "WLS" else "--",
+                      label=f"{label['transfer']}, {label['treatment']}")
+    axis.axhline(2 + math.pi, color="k", lw=0.7)
+    axis.text(0.01, 2 + math.pi + 0.05, "Prandtl, 2 + pi", fontsize=8)
+    axis.set_xlabel("displacement [mm]")
+    axis.set_ylabel("Q / (c B)")
+    axis.set_ylim(0, 7)
+    axis.legend(fontsize=7, loc="lower right")
+    places = [grid[0, 2]] + [grid[1, i] for i in range(max(3, len(maps) - 2))]
+    for place, result in zip(places, maps):
+        axis = figure.add_subplot(place)
+        particles = result.particles()
+        drawn = axis.scatter(particles["x"], particles["y"], c=1e4 * particles["deviatoric_strain"], s=1.2, vmin=0, vmax=15,
+                             cmap="magma", linewidths=0)
+        axis.set(xlim=(0, 2.5), ylim=(3, 5), aspect="equal", xticks=[], yticks=[])
+        axis.set_title(f"{result.run.label['transfer']}, {result.run.label['treatment']}", fontsize=9)
+    figure.colorbar(drawn, ax=figure.axes[1:], label="deviatoric strain [1e-4]", shrink=0.6)
+    figure.suptitle("Footing, h = .05: load and deviatoric strain at the end")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
