@@ -335,7 +335,7 @@ namespace Talus
   void Particles<dim>::sort(const std::vector<bool> &is_gone)
   {
     ++arrangement;
-    // Counting sort by material and cell; particles are few in each, and mostly in order.
+    // Counting sort by material and first node; particles are few for each, and mostly in order.
     const auto               &lattice = grid->lattice;
     const unsigned int        n_cells = lattice.cell.size(), n_materials = this->material_begin.size() - 1;
     const auto                x = this->template components<dim>(this->position);
@@ -344,11 +344,11 @@ namespace Talus
     {
       if (!is_gone.empty() && is_gone[p])
         continue;
-      typename Lattice<dim>::Index cell;
+      typename Lattice<dim>::Index first;
       for (unsigned int d = 0; d < dim; ++d)
-        cell[d] = static_cast<int>(std::floor(lattice.coordinate(x[d][p], d)));
-      Assert(lattice.is_in_table(cell), ExcMessage("migrate() comes before sort()."));
-      key[p] = body_material[this->body[p]] * n_cells + lattice.table_index(cell);
+        first[d] = static_cast<int>(std::floor(lattice.coordinate(x[d][p], d) - stencil_shift));
+      Assert(lattice.is_in_table(first), ExcMessage("migrate() comes before sort()."));
+      key[p] = body_material[this->body[p]] * n_cells + lattice.table_index(first);
       ++begin[key[p] + 1];
     }
     for (unsigned int k = 0; k + 1 < begin.size(); ++k)

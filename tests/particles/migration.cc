@@ -43,15 +43,15 @@ namespace
   }
 
   template <int dim>
-  typename Lattice<dim>::Index cell_of(const Setup<dim> &setup, const unsigned int p)
+  typename Lattice<dim>::Index cell_of(const Setup<dim> &setup, const unsigned int p, const double shift = 0)
   {
     typename Lattice<dim>::Index cell;
     for (unsigned int d = 0; d < dim; ++d)
-      cell[d] = static_cast<int>(std::floor(setup.grid.lattice.coordinate(setup.position(p)[d], d)));
+      cell[d] = static_cast<int>(std::floor(setup.grid.lattice.coordinate(setup.position(p)[d], d) - shift));
     return cell;
   }
 
-  /** Particles lie in cells of this rank, ordered by material, cell (x fastest) and id. */
+  /** Particles lie in cells of this rank, ordered by material, first node of the stencil (x fastest) and id. */
   template <int dim>
   bool is_canonical(const Setup<dim> &setup)
   {
@@ -61,14 +61,15 @@ namespace
     for (unsigned int m = 0; m + 1 < set.material_begin.size(); ++m)
       for (unsigned int p = set.material_begin[m]; p < set.material_begin[m + 1]; ++p)
       {
-        auto cell = cell_of(setup, p);
-        holds     = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
+        const auto cell = cell_of(setup, p);
+        holds           = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
         if (p > set.material_begin[m])
         {
-          auto before = cell_of(setup, p - 1);
-          std::reverse(cell.begin(), cell.end());
+          const double shift = setup.kernel->shift();
+          auto         here = cell_of(setup, p, shift), before = cell_of(setup, p - 1, shift);
+          std::reverse(here.begin(), here.end());
           std::reverse(before.begin(), before.end());
-          holds = holds && (before < cell || (before == cell && set.id[p - 1] < set.id[p]));
+          holds = holds && (before < here || (before == here && set.id[p - 1] < set.id[p]));
         }
       }
     return holds;

@@ -58,7 +58,7 @@ namespace Talus
     /** Sends the particles that lie in other ranks' cells there. Collective. */
     void migrate();
 
-    /** Restores the canonical order: by material, cell and id. */
+    /** Restores the canonical order: by material, first node of the stencil and id. */
     void sort();
 
     /** Both: what the working set is then depends on nothing but where the particles are. Collective. */

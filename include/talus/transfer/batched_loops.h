@@ -39,11 +39,12 @@ namespace Talus
         Vectors add;
         contribution(scheme, arrays, batch, stencil, b, lattice.largest_spacing(), add);
         const Factors factors(stencil);
-        for (unsigned int l = 0; l < batch.size(); ++l)
-          if (stencil.is_product)
-            scatter_product(add, factors, lattice, stencil, l, fields);
-          else
+        if (!stencil.is_product)
+          for (unsigned int l = 0; l < batch.size(); ++l)
             scatter_list(add, lattice, stencil, l, fields);
+        else
+          for (unsigned int l = 0; l < batch.size();)
+            l = scatter_run(add, factors, lattice, stencil, l, batch.size(), fields);
       });
     }
 
@@ -199,45 +200,87 @@ namespace Talus
       (Node::load(node) + value).store(node);
     }
 
-    /** Eqs. (13)-(19) of particle l. What it reads is read before it stores, so that nothing is read twice. */
-    [[gnu::always_inline]] static void scatter_product(const Vectors &add, const Factors &factors,
-                                                       const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
-                                                       const unsigned int l, Fields &fields)
+    /** Eqs. (13)-(19) of particle l: calls `add(a, b, c, value)` for what it adds to each of its nodes. */
+    template <class Add>
+    [[gnu::always_inline]] static void scatter_product(const Vectors &vectors, const Factors &factors,
+                                                       const LatticeBatch<dim, n> &stencil, const unsigned int l,
+                                                       const Add &add)
     {
       const auto slope = [&](const unsigned int d, const unsigned int k) {
         return blend(is_affine ? factors.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
       };
-      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1], stride_z = Fields::stride * lattice.stride[dim - 1];
-      double *const        first = fields.at_place(stencil.first_node[l]);
-
+      // All is read before anything is stored, so that nothing is read twice.
       Node weight[dim][n], row[n], across[n]; // sums along x; what comes from y
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int k = 0; k < n; ++k)
           weight[d][k] = stencil.weight[d][k].data()[l];
       for (unsigned int k = 0; k < n; ++k)
       {
-        row[k]    = weight[0][k] * add.constant[l] + slope(0, k) * add.linear[0][l];
-        across[k] = slope(1, k) * add.linear[1][l];
+        row[k]    = weight[0][k] * vectors.constant[l] + slope(0, k) * vectors.linear[0][l];
+        across[k] = slope(1, k) * vectors.linear[1][l];
       }
       if constexpr (dim == 2)
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
-            add_to(first + b * stride_y + a * Fields::stride, weight[1][b] * row[a] + weight[0][a] * across[b]);
+            add(a, b, 0, weight[1][b] * row[a], weight[0][a] * across[b]);
       else
       {
         Node along[n]; // from z
         for (unsigned int k = 0; k < n; ++k)
-          along[k] = slope(dim - 1, k) * add.linear[dim - 1][l];
+          along[k] = slope(dim - 1, k) * vectors.linear[dim - 1][l];
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
           {
-            const Node    plane = weight[1][b] * row[a] + weight[0][a] * across[b];
-            const Node    both  = weight[0][a] * weight[1][b];
-            double *const node  = first + b * stride_y + a * Fields::stride;
+            const Node plane = weight[1][b] * row[a] + weight[0][a] * across[b];
+            const Node both  = weight[0][a] * weight[1][b];
             for (unsigned int c = 0; c < n; ++c)
-              add_to(node + c * stride_z, weight[dim - 1][c] * plane + both * along[c]);
+              add(a, b, c, weight[dim - 1][c] * plane, both * along[c]);
           }
       }
+    }
+
+    /**
+     * Particle l, and those after it with the same nodes; returns the next one. Where the nodes fit into the
+     * registers, what a run of particles adds is summed there.
+     */
+    [[gnu::always_inline]] static unsigned int scatter_run(const Vectors &vectors, const Factors &factors,
+                                                           const Lattice<dim>         &lattice,
+                                                           const LatticeBatch<dim, n> &stencil, unsigned int l,
+                                                           const unsigned int size, Fields &fields)
+    {
+      const int            place    = stencil.first_node[l];
+      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1];
+      double *const        first    = fields.at_place(place);
+      if constexpr (dim == 2)
+      {
+        Node sum[n][n];
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int a = 0; a < n; ++a)
+            sum[b][a] = Node::load(first + b * stride_y + a * Fields::stride);
+        do
+        {
+          scatter_product(vectors, factors, stencil, l,
+                          [&](const unsigned int a, const unsigned int b, unsigned int, const Node &x, const Node &y) {
+                            sum[b][a] += x;
+                            sum[b][a] += y;
+                          });
+          ++l;
+        } while (l < size && stencil.first_node[l] == place);
+        for (unsigned int b = 0; b < n; ++b)
+          for (unsigned int a = 0; a < n; ++a)
+            sum[b][a].store(first + b * stride_y + a * Fields::stride);
+      }
+      else
+      {
+        const std::ptrdiff_t stride_z = Fields::stride * lattice.stride[dim - 1];
+        scatter_product(vectors, factors, stencil, l,
+                        [&](const unsigned int a, const unsigned int b, const unsigned int c, const Node &x,
+                            const Node &y) {
+                          add_to(first + b * stride_y + a * Fields::stride + c * stride_z, x + y);
+                        });
+        ++l;
+      }
+      return l;
     }
 
     /** Calls `body(i, k, place)` for the existing nodes of a stencil that is a list; k is where along each axis. */
