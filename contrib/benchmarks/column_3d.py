@@ -83,12 +83,13 @@ def draw(results, path):
     if result is None:
         return
     figure, axes = plt.subplots(2, 3, figsize=(11, 5.6), layout="constrained", height_ratios=(2.2, 1))
-    edges = np.arange(-0.3, 0.3 + H / 2, H)
+    cell = 1.5 * H  # rows of particles end up more than h apart
+    n = round(0.6 / cell)
     for (top, cut), time in zip(axes.T, (0.1, 0.2, 0.6)):
         particles = result.particles(time)
-        column = np.floor((particles["x"] + 0.3) / H).astype(int), np.floor((particles["y"] + 0.3) / H).astype(int)
-        surface = np.zeros((len(edges) - 1, len(edges) - 1))
-        np.maximum.at(surface, (column[1], column[0]), particles["z"])
+        column, row = (np.floor((particles[axis] + 0.3) / cell).astype(int) for axis in "xy")
+        surface = np.zeros((n, n))
+        np.maximum.at(surface, (row, column), particles["z"])
         heights = top.imshow(np.where(surface > 0, surface, np.nan), origin="lower", extent=(-0.3, 0.3, -0.3, 0.3), vmin=0,
                              vmax=HEIGHT, cmap="viridis")
         top.add_patch(plt.Circle((0, 0), front(radius(particles)), fill=False, lw=0.8, ls="--"))
@@ -102,6 +103,6 @@ def draw(results, path):
             axis.set(xticks=[], yticks=[])
     figure.colorbar(heights, ax=list(axes[0]), label="height [m]", shrink=0.8)
     figure.colorbar(speeds, ax=list(axes[1]), label="speed [m/s]", extend="max")
-    figure.suptitle("Cylinder of sand on a no-slip floor, h = .01, TPIC, WLS: from above (dashed: 99 % of the particles) and cut")
+    figure.suptitle("Cylinder of sand on a no-slip floor, h = .01, TPIC, WLS: from above (dashed: front) and cut")
     figure.savefig(path, dpi=110)
     plt.close(figure)

@@ -104,7 +104,7 @@ def figures(results):
 
 def draw(results, path):
     shown = [("quadratic", treatment) for treatment in TREATMENTS]
-    shown += [("cubic", "Steffen"), ("cubic", "WLS"), ("uGIMP", "none"), ("uGIMP", "WLS")]
+    shown += [("cubic", "Steffen"), ("cubic", "MLS"), ("cubic", "WLS"), ("uGIMP", "none"), ("uGIMP", "WLS")]
     figure, axes = plt.subplots(4, 5, figsize=(12, 7.6), sharex=True, layout="constrained")
     for k, (kernel, treatment) in enumerate(shown):
         block, column = divmod(k, 5)
@@ -114,11 +114,9 @@ def draw(results, path):
         axes[2 * block, column].set_title(f"{kernel}, {treatment}", fontsize=9)
         axes[2 * block, column].set_ylim(-0.1, 1.1)
         axes[2 * block + 1, column].set_ylim(-1.6, 1.6)
-    for axis in axes[2:, 4]:
-        axis.set_axis_off()
     for row, name in enumerate(["value", "derivative"] * 2):
         axes[row, 0].set_ylabel(name)
-    for axis in axes[3, :4]:
+    for axis in axes[3]:
         axis.set_xlabel("distance from the edge / h")
     figure.suptitle("Kernel functions of the first nodes at the edge of the grid")
     figure.savefig(path, dpi=110)

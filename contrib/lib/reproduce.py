@@ -19,7 +19,7 @@ from PIL import Image
 
 BENCHMARKS = runs.ROOT / "contrib" / "benchmarks"
 FIGURES = runs.ROOT / "doc" / "figures"
-LARGEST = 60000  # bytes of a figure in doc/
+LARGEST = 80000  # bytes of a figure in doc/
 
 
 def names():
@@ -32,11 +32,11 @@ def load(name):
 
 
 def write_rendition(source, target):
-    """A figure for doc/: fewer colours, and as many pixels as its size allows."""
+    """A figure for doc/: a palette of colours, and as many pixels as its size allows."""
     figure = Image.open(source).convert("RGB")
     for width in range(min(1000, figure.width), 200, -50):
         small = figure.resize((width, round(figure.height * width / figure.width)), Image.LANCZOS)
-        small.quantize(64, method=Image.MEDIANCUT).save(target, optimize=True)
+        small.quantize(256, kmeans=2).save(target, optimize=True)
         if target.stat().st_size <= LARGEST:
             return
 
