@@ -279,19 +279,20 @@ def case_column_APIC(runs):
 
 def case_column_cohesion(runs):
     """
-    A vertical cut of Coulomb material stands up to H = 3.64 c'/gamma tan(45 + phi'/2), a lower bound of limit
-    analysis (Pastor et al. 2000), and falls from 3.83 on (Chen 1975). In plane strain with psi = 0 the material
-    mobilises sin phi' = 3 alpha and c' = kappa/cos phi', here 32.99 degrees and .927 c. Courant number .5: at 1
-    grains that fall with cohesion are unstable, and round-off doubles in each step. With 1.5 times the cohesion that
-    .3 needs the column must stand, with the strains of elasticity, gamma H/E; with two thirds it must fall: .25 s are
-    three times the time in which a body falls by a quarter of the width.
+    A vertical cut of Coulomb material. The weight in uniaxial compression is in equilibrium, and below yield up to
+    H = 2 c'/gamma tan(45 + phi'/2); a plane wedge slides off from 4 c'/gamma tan(45 + phi'/2) on. In plane strain with
+    psi = 0 the material mobilises sin phi' = 3 alpha and c' = kappa/cos phi', here 32.99 degrees and .927 c. With 1.25
+    times the cohesion of the first bound (then elastic stress_zz is below yield, too) the column stands, with strains
+    of elasticity, gamma H/E; with two thirds of the second it falls: .25 s are three times the time of a free fall
+    by a quarter of the width. Courant number .5: at 1 grains that fall with cohesion are unstable, and round-off
+    doubles in each step.
     """
     weight, depth, tangent = 1400 * G, 0.3, math.tan(math.radians(35))
     root = math.sqrt(9 + 12 * tangent**2)
     angle = math.asin(3 * tangent / root)
     factor = 3 / root / math.cos(angle) * math.tan(math.pi / 4 + angle / 2)  # c'/c tan(45 + phi'/2)
     needed = weight * depth / factor
-    for name, cohesion in (("stands", 1.5 * needed / 3.64), ("falls", needed / 3.83 / 1.5)):
+    for name, cohesion in (("stands", 1.25 * needed / 2), ("falls", needed / 4 / 1.5)):
         s, particles, _ = run(runs, "column.prm", name, "Grid/Spacing = 0.02", "Run/End time = 0.25", "Run/Courant number = 0.5",
                               "Output/Time interval = 0",
                               f"Materials/sand/Cohesion = {cohesion}",
