@@ -5,6 +5,7 @@ import math
 import matplotlib
 
 matplotlib.use("Agg")
+import maps
 import matplotlib.pyplot as plt
 import numpy as np
 import report
@@ -109,9 +110,9 @@ def figures(results):
 def draw(results, path):
     """Load against displacement, and the deviatoric strain near the footing."""
     opened = [result for result in results if result.run.label["edge"] != "closed"]
-    maps = [result for result in opened if result.status == 0 and result.run.label["transfer"] in ("FLIP", "TPIC")]
-    figure = plt.figure(figsize=(12, 7), layout="constrained")
-    grid = figure.add_gridspec(2, max(3, len(maps) - 2))
+    shown = [result for result in opened if result.status == 0 and result.run.label["transfer"] not in ("PIC", "FEM")]
+    figure = plt.figure(figsize=(13, 6.2), layout="constrained")
+    grid = figure.add_gridspec(2, 4)
     axis = figure.add_subplot(grid[0, :2])
     for result in opened:
         if result.status == 0:
@@ -125,15 +126,15 @@ def draw(results, path):
     axis.set_ylabel("Q / (c B)")
     axis.set_ylim(0, 7)
     axis.legend(fontsize=7, loc="lower right")
-    places = [grid[0, 2]] + [grid[1, i] for i in range(max(3, len(maps) - 2))]
-    for place, result in zip(places, maps):
+    places = [grid[0, 2], grid[0, 3], grid[1, 0], grid[1, 1], grid[1, 2], grid[1, 3]]
+    for place, result in zip(places, shown):
         axis = figure.add_subplot(place)
         particles = result.particles()
-        drawn = axis.scatter(particles["x"], particles["y"], c=1e4 * particles["deviatoric_strain"], s=1.2, vmin=0, vmax=15,
-                             cmap="magma", linewidths=0)
-        axis.set(xlim=(0, 2.5), ylim=(3, 5), aspect="equal", xticks=[], yticks=[])
+        picture = maps.image(particles, 1e4 * particles["deviatoric_strain"])
+        drawn = axis.imshow(picture, origin="lower", extent=(0, 5, 0, 5), vmin=0, vmax=15, cmap="magma", interpolation="nearest")
+        axis.set(xlim=(0, 2.5), ylim=(3, 5), xticks=[], yticks=[])
         axis.set_title(f"{result.run.label['transfer']}, {result.run.label['treatment']}", fontsize=9)
-    figure.colorbar(drawn, ax=figure.axes[1:], label="deviatoric strain [1e-4]", shrink=0.6)
+    figure.colorbar(drawn, ax=figure.axes[1:], label="deviatoric strain [1e-4]", extend="max", shrink=0.6)
     figure.suptitle("Footing, h = .05: load and deviatoric strain at the end")
     figure.savefig(path, dpi=110)
     plt.close(figure)

@@ -32,13 +32,14 @@ def load(name):
 
 
 def write_rendition(source, target):
-    """A figure for doc/: a palette of colours, and as many pixels as its size allows."""
+    """A figure for doc/, with as many pixels as its size allows; all colours if they fit, or a palette."""
     figure = Image.open(source).convert("RGB")
     for width in range(min(1000, figure.width), 200, -50):
         small = figure.resize((width, round(figure.height * width / figure.width)), Image.LANCZOS)
-        small.quantize(256, kmeans=2).save(target, optimize=True)
-        if target.stat().st_size <= LARGEST:
-            return
+        for image in (small, small.quantize(256, method=Image.MAXCOVERAGE)):
+            image.save(target, optimize=True)
+            if target.stat().st_size <= LARGEST:
+                return
 
 
 def reproduce(name, arguments):
