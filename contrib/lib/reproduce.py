@@ -36,7 +36,7 @@ def write_rendition(source, target):
     figure = Image.open(source).convert("RGB")
     for width in range(min(1000, figure.width), 200, -50):
         small = figure.resize((width, round(figure.height * width / figure.width)), Image.LANCZOS)
-        for image in (small, small.quantize(256, method=Image.MAXCOVERAGE)):
+        for image in (small, small.quantize(256, kmeans=1)):
             image.save(target, optimize=True)
             if target.stat().st_size <= LARGEST:
                 return
