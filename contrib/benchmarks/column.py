@@ -9,23 +9,29 @@ import numpy as np
 import report
 from runs import Run
 
-TITLE = "collapse of a sand column (2D): run-out, height, kinetic energy; uncorrected runs must fail"
+TITLE = "collapse of a sand column (2D): run-out, height, kinetic energy; with friction; uncorrected runs must fail"
 
 WIDTH, H = 0.1, 0.01  # half width of the column, spacing [m]
+FRICTION = 0.4
+FILES = {"no-slip": "prm/column.prm", "friction": "prm/column_friction.prm"}
 
 
-def run(kernel, transfer, treatment, courant=1.0):
-    return Run("prm/column.prm",
+def run(kernel, transfer, treatment, courant=1.0, floor="no-slip", h=H):
+    return Run(FILES[floor],
                {"Kernel/Type": kernel, "Transfer/Type": transfer, "Kernel/Boundary treatment": treatment,
-                "Run/Courant number": courant},
-               {"kernel": kernel, "transfer": transfer, "treatment": treatment, "Cr": courant})
+                "Run/Courant number": courant, "Grid/Spacing": h},
+               {"floor": floor, "h": h, "kernel": kernel, "transfer": transfer, "treatment": treatment, "Cr": courant})
 
 
 def runs():
     return ([run("quadratic B-spline", transfer, "WLS") for transfer in ("FLIP", "APIC", "TPIC")]
             + [run("uGIMP", transfer, "WLS") for transfer in ("APIC", "TPIC", "FLIP")]
             + [run("uGIMP", "FLIP", "WLS", 0.7)]
-            + [run("quadratic B-spline", transfer, "Steffen") for transfer in ("APIC", "TPIC")])
+            + [run("quadratic B-spline", transfer, "Steffen") for transfer in ("APIC", "TPIC")]
+            + [run("quadratic B-spline", transfer, "WLS", floor="friction") for transfer in ("APIC", "TPIC")]
+            # How much the run-out depends on spacing and step size.
+            + [run("quadratic B-spline", "TPIC", "WLS", floor=floor, h=h) for floor in FILES for h in (0.02, 0.005)]
+            + [run("quadratic B-spline", "TPIC", "WLS", courant, floor) for floor in FILES for courant in (0.5, 0.2)])
 
 
 def run_out(particles):
@@ -33,12 +39,27 @@ def run_out(particles):
     return (x[int(0.99 * (len(x) - 1))] - WIDTH) / WIDTH
 
 
-def height(particles):
-    return np.max(particles["y"][particles["x"] < 2 * H])
+def height(particles, h=H):
+    return np.max(particles["y"][particles["x"] < 2 * h])
 
 
-def end(result, function):
-    return function(result.particles()) if result.status == 0 else math.nan
+def end(result, function, *arguments):
+    return function(result.particles(), *arguments) if result.status == 0 else math.nan
+
+
+def statistic(result, function):
+    return function(result.statistics()) if result.status == 0 else math.nan
+
+
+def mobilised(columns):
+    """The largest ratio of the floor's tangential to its normal force."""
+    normal = -columns["reaction floor y"]
+    return np.max(np.abs(columns["reaction floor x"][normal > 0]) / normal[normal > 0])
+
+
+def gain(columns):
+    """What the scheme has at most added to the energy, over the work of gravity."""
+    return np.max(columns["energy residual"]) / columns["body force work"][-1]
 
 
 def kinetic_energy(result):
@@ -50,14 +71,16 @@ def mean_J(particles):
 
 
 def table(results):
-    return [{**result.run.label, "run-out": end(result, run_out), "height": end(result, height),
-             "mean J": end(result, mean_J), "kinetic energy": kinetic_energy(result), "failed at": result.failure_time()}
+    return [{**result.run.label, "run-out": end(result, run_out), "height": end(result, height, result.run.label["h"]),
+             "mean J": end(result, mean_J), "kinetic energy": kinetic_energy(result),
+             "friction/normal": statistic(result, mobilised), "failed at": result.failure_time()}
             for result in results]
 
 
 def figures(results):
     by = {tuple(result.run.label.values()): result for result in results}
-    get = lambda kernel, transfer, treatment="WLS", courant=1.0: by[kernel, transfer, treatment, courant]
+    get = lambda kernel, transfer, treatment="WLS", courant=1.0, floor="no-slip": by[floor, H, kernel, transfer, treatment,
+                                                                                     courant]
     quadratic, gimp = "quadratic B-spline", "uGIMP"
     values = []
     for transfer in ("APIC", "TPIC"):
@@ -75,12 +98,22 @@ def figures(results):
     for transfer in ("APIC", "TPIC"):
         values.append(report.Figure(f"quadratic, {transfer}, uncorrected, fails (time)",
                                     get(quadratic, transfer, "Steffen").failure_time(), 0, 0.6, "s"))
+    for transfer in ("APIC", "TPIC"):
+        result = get(quadratic, transfer, floor="friction")
+        values.append(report.Figure(f"friction, {transfer}, tangential over normal force, largest",
+                                    statistic(result, mobilised), upper=FRICTION))
+        values.append(report.Figure(f"friction, {transfer}, run-out over that of no-slip",
+                                    end(result, run_out) / end(get(quadratic, transfer), run_out), lower=1))
+        values.append(report.Figure(f"friction, {transfer}, energy added / work of gravity", statistic(result, gain), upper=1e-6))
+        values.append(report.Figure(f"friction, {transfer}, mean J", end(result, mean_J), upper=1.05))
     return values
 
 
 def draw(results, path):
     """The velocity's norm at three times."""
-    shown = [result for result in results if result.status == 0]
+    shown = [result for result in results if result.status == 0 and result.run.label["h"] == H
+             and (result.run.label["floor"] == "no-slip" or result.run.label["transfer"] == "TPIC")
+             and (result.run.label["Cr"] == 1 or result.run.label["transfer"] == "FLIP")]
     times = (0.15, 0.3, 0.6)
     figure, axes = plt.subplots(len(shown), len(times), figsize=(11, 1.6 * len(shown) + 0.6), squeeze=False,
                                 layout="constrained")
@@ -89,10 +122,11 @@ def draw(results, path):
             particles = result.particles(time)
             speed = np.hypot(particles["velocity_x"], particles["velocity_y"])
             drawn = axis.scatter(particles["x"], particles["y"], c=speed, s=1.5, vmin=0, vmax=1.5, cmap="viridis", linewidths=0)
-            axis.set(xlim=(0, 0.6), ylim=(0, 0.31), aspect="equal", xticks=[], yticks=[])
+            axis.set(xlim=(0, 0.8), ylim=(0, 0.31), aspect="equal", xticks=[], yticks=[])
             label = result.run.label
-            axis.set_title(f"{label['kernel'].split()[0]}, {label['transfer']}, Cr {label['Cr']}, t = {time} s", fontsize=8)
+            axis.set_title(f"{label['kernel'].split()[0]}, {label['transfer']}, {label['floor']}, Cr {label['Cr']}, "
+                           f"t = {time} s", fontsize=8)
     figure.colorbar(drawn, ax=list(axes.flat), label="speed [m/s]", extend="max", shrink=0.5)
-    figure.suptitle("Column of sand on a no-slip floor, h = .01, WLS")
+    figure.suptitle("Column of sand, h = .01, WLS")
     figure.savefig(path, dpi=110)
     plt.close(figure)

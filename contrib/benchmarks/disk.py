@@ -92,27 +92,27 @@ def draw(results, path):
     """Angular momentum and kinetic energy, and the angular velocity's error at the end."""
     shown = [result for result in results if result.status == 0 and result.run.label["wall"] == "near"
              and result.run.label["Cr"] == 0.8]
-    figure, axes = plt.subplots(2, max(2, len(shown)), figsize=(2.6 * max(2, len(shown)), 6), squeeze=False,
-                                layout="constrained")
-    for axis in axes[0][2:]:
+    n = max(2, len(shown))
+    figure = plt.figure(figsize=(2.6 * n, 6), layout="constrained")
+    grid = figure.add_gridspec(2, 2 * n)
+    curves = [figure.add_subplot(grid[0, :n]), figure.add_subplot(grid[0, n:])]
+    maps = [figure.add_subplot(grid[1, 2 * i:2 * i + 2]) for i in range(n)]
+    for axis, column in zip(curves, ("angular momentum", "kinetic energy")):
+        for result in shown:
+            name = f"{result.run.label['transfer']}, {result.run.label['treatment']}"
+            style = "--" if result.run.label["transfer"] == "TPIC" else "-"
+            axis.plot(result.statistics()["time"], relative(result, column + (" z" if column[0] == "a" else "")), style, label=name)
+        axis.set(title=column + " / initial", xlabel="t [s]", ylim=(0.88, 1.01))
+    curves[0].legend(fontsize=7, loc="lower left")
+    for axis in maps:
         axis.set_axis_off()
-    for result in shown:
-        name = f"{result.run.label['transfer']}, {result.run.label['treatment']}"
-        time = result.statistics()["time"]
-        axes[0][0].plot(time, relative(result, "angular momentum z"), label=name)
-        axes[0][1].plot(time, relative(result, "kinetic energy"), label=name)
-    axes[0][0].set(title="angular momentum / initial", xlabel="t [s]")
-    axes[0][1].set(title="kinetic energy / initial", xlabel="t [s]")
-    axes[0][1].legend(fontsize=7)
-    for axis in axes[1]:
-        axis.set_axis_off()
-    for axis, result in zip(axes[1], shown):
+    for axis, result in zip(maps, shown):
         particles = result.particles()
         error = 100 * np.abs(particles["vorticity"] / 2 / OMEGA - 1)
         drawn = axis.scatter(particles["x"], particles["y"], c=error, s=4, vmin=0, vmax=5, cmap="magma", linewidths=0)
         axis.set_aspect("equal")
         axis.set_title(f"{result.run.label['transfer']}, {result.run.label['treatment']}", fontsize=9)
-    figure.colorbar(drawn, ax=list(axes[1]), label="error of angular velocity [%]", extend="max")
+    figure.colorbar(drawn, ax=maps, label="error of angular velocity [%]", extend="max")
     figure.suptitle("A disk turns once, h = .05, cubic B-splines")
     figure.savefig(path, dpi=110)
     plt.close(figure)

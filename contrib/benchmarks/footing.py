@@ -1,9 +1,11 @@
 """Rough strip footing on clay, Nakamura et al. (2023), section 5.2, beside the J2 finite elements of the same program."""
+import csv
 import math
 
 import matplotlib
 
 matplotlib.use("Agg")
+import maps
 import matplotlib.pyplot as plt
 import numpy as np
 import report
@@ -27,11 +29,24 @@ def runs():
     return ([run(0.05, transfer, "WLS", "open") for transfer in CORRECTED]
             + [run(0.05, "TPIC", "WLS everywhere", "open")]
             + [run(0.05, transfer, "Steffen", "open") for transfer in ("FLIP", "APIC", "TPIC")]
-            + [run(h, "TPIC", "WLS", "closed") for h in (0.1, 0.05, 0.025)])
+            + [run(h, "TPIC", "WLS", "closed") for h in (0.1, 0.05, 0.025)]
+            + [finite_elements()])
+
+
+def finite_elements():
+    """Q2 elements as large as the cells; the run of particles beside them ends after a step."""
+    h = 0.05
+    return Run("prm/footing_fem.prm", {"FEM reference/Cells": f"{round(5 / h)}, {round(5 / h)}", "Run/Number of steps": 1},
+               {"h": h, "transfer": "FEM", "treatment": "Q2", "edge": "x <= B/2"})
 
 
 def curve(result):
     """Time and Q/(cB)."""
+    if result.run.label["transfer"] == "FEM":
+        with open(result.directory / "load_curve.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return (np.array([float(row["time [time]"]) for row in rows]),
+                np.array([float(row["force footing y [force]"]) for row in rows]) / (C * B))
     columns = result.statistics()
     return columns["time"], np.abs(columns["reaction footing y"]) / (C * B)
 
@@ -41,7 +56,7 @@ def late(result, fraction):
     if result.status != 0:
         return math.nan
     time, load = curve(result)
-    return np.mean(load[time > fraction * time[-1]])
+    return np.mean(load[time > (fraction + 1e-9) * time[-1]])
 
 
 def slope(result):
@@ -50,7 +65,7 @@ def slope(result):
 
 def area_of_half(result):
     """Area that holds half of the deviatoric strain [m^2]."""
-    if result.status != 0:
+    if result.status != 0 or result.run.label["transfer"] == "FEM":
         return math.nan
     particles = result.particles()
     strain = np.sort(particles["deviatoric_strain"])[::-1]
@@ -65,6 +80,7 @@ def table(results):
 
 def figures(results):
     by = {tuple(result.run.label.values()): result for result in results}
+    fem = next(result for result in results if result.run.label["transfer"] == "FEM")
     here = lambda transfer, treatment: by[0.05, transfer, treatment, "open"]
     load = lambda transfer, treatment: late(here(transfer, treatment), 0.9)
     values = []
@@ -86,37 +102,39 @@ def figures(results):
     for h, expected in ((0.1, 5.92), (0.05, 5.61), (0.025, 5.42)):
         values.append(report.near(f"TPIC, corrected, closed, h = {h}, Q/(cB)",
                                   late(by[h, "TPIC", "WLS", "closed"], 0.9), expected, 0.01 * expected))
+    values.append(report.near("FEM, h = 0.05, Q/(cB) at the end", curve(fem)[1][-1] if fem.status == 0 else math.nan,
+                              5.218, 0.005 * 5.218))
     return values
 
 
 def draw(results, path):
     """Load against displacement, and the deviatoric strain near the footing."""
-    opened = [result for result in results if result.run.label["edge"] == "open"]
-    maps = [result for result in opened if result.status == 0 and result.run.label["transfer"] in ("FLIP", "TPIC")]
-    figure = plt.figure(figsize=(12, 7), layout="constrained")
-    grid = figure.add_gridspec(2, max(3, len(maps) - 2))
+    opened = [result for result in results if result.run.label["edge"] != "closed"]
+    shown = [result for result in opened if result.status == 0 and result.run.label["transfer"] not in ("PIC", "FEM")]
+    figure = plt.figure(figsize=(13, 6.2), layout="constrained")
+    grid = figure.add_gridspec(2, 4)
     axis = figure.add_subplot(grid[0, :2])
     for result in opened:
         if result.status == 0:
             time, load = curve(result)
             label = result.run.label
-            axis.plot(4 * time, load, lw=1, ls="-" if label["treatment"] == "WLS" else "--",
-                      label=f"{label['transfer']}, {label['treatment']}")
+            style = {"WLS": "-", "Q2": "ko-"}.get(label["treatment"], "--")
+            axis.plot(4 * time, load, style, lw=1, ms=3, label=f"{label['transfer']}, {label['treatment']}")
     axis.axhline(2 + math.pi, color="k", lw=0.7)
     axis.text(0.01, 2 + math.pi + 0.05, "Prandtl, 2 + pi", fontsize=8)
     axis.set_xlabel("displacement [mm]")
     axis.set_ylabel("Q / (c B)")
     axis.set_ylim(0, 7)
     axis.legend(fontsize=7, loc="lower right")
-    places = [grid[0, 2]] + [grid[1, i] for i in range(max(3, len(maps) - 2))]
-    for place, result in zip(places, maps):
+    places = [grid[0, 2], grid[0, 3], grid[1, 0], grid[1, 1], grid[1, 2], grid[1, 3]]
+    for place, result in zip(places, shown):
         axis = figure.add_subplot(place)
         particles = result.particles()
-        drawn = axis.scatter(particles["x"], particles["y"], c=1e4 * particles["deviatoric_strain"], s=1.2, vmin=0, vmax=15,
-                             cmap="magma", linewidths=0)
-        axis.set(xlim=(0, 2.5), ylim=(3, 5), aspect="equal", xticks=[], yticks=[])
+        picture = maps.image(particles, 1e4 * particles["deviatoric_strain"])
+        drawn = axis.imshow(picture, origin="lower", extent=(0, 5, 0, 5), vmin=0, vmax=15, cmap="magma", interpolation="nearest")
+        axis.set(xlim=(0, 2.5), ylim=(3, 5), xticks=[], yticks=[])
         axis.set_title(f"{result.run.label['transfer']}, {result.run.label['treatment']}", fontsize=9)
-    figure.colorbar(drawn, ax=figure.axes[1:], label="deviatoric strain [1e-4]", shrink=0.6)
+    figure.colorbar(drawn, ax=figure.axes[1:], label="deviatoric strain [1e-4]", extend="max", shrink=0.6)
     figure.suptitle("Footing, h = .05: load and deviatoric strain at the end")
     figure.savefig(path, dpi=110)
     plt.close(figure)

@@ -15,8 +15,11 @@ import sys
 
 import report
 import runs
+from PIL import Image
 
 BENCHMARKS = runs.ROOT / "contrib" / "benchmarks"
+FIGURES = runs.ROOT / "doc" / "figures"
+LARGEST = 80000  # bytes of a figure in doc/
 
 
 def names():
@@ -28,12 +31,25 @@ def load(name):
     return importlib.import_module(name.replace("-", "_"))
 
 
+def write_rendition(source, target):
+    """A figure for doc/, with as many pixels as its size allows; all colours if they fit, or a palette."""
+    figure = Image.open(source).convert("RGB")
+    for width in range(min(1000, figure.width), 200, -50):
+        small = figure.resize((width, round(figure.height * width / figure.width)), Image.LANCZOS)
+        for image in (small, small.quantize(256, kmeans=1)):
+            image.save(target, optimize=True)
+            if target.stat().st_size <= LARGEST:
+                return
+
+
 def reproduce(name, arguments):
     benchmark = load(name)
     directory = pathlib.Path(arguments.output or runs.ROOT / "reproduce" / name)
+    directory.mkdir(parents=True, exist_ok=True)
     for old in ("table.csv", "figure.png"):
         (directory / old).unlink(missing_ok=True)
-    results = runs.execute_all(benchmark.runs(), directory / "runs", arguments.jobs, arguments.ranks)
+    planned = benchmark.runs()  # none where a benchmark only evaluates formulas
+    results = runs.execute_all(planned, directory / "runs", arguments.jobs, arguments.ranks) if planned else []
     rows = benchmark.table(results)
     report.write_csv(directory / "table.csv", rows)
     print("\n" + report.format_table(rows) + "\n")
@@ -41,6 +57,8 @@ def reproduce(name, arguments):
     for figure in figures:
         print(figure.line())
     benchmark.draw(results, directory / "figure.png")
+    if arguments.doc and (directory / "figure.png").exists():
+        write_rendition(directory / "figure.png", FIGURES / f"{name}.png")
     failed = sum(not figure.passes for figure in figures)
     print(f"\n{len(figures) - failed} of {len(figures)} acceptance figures pass. "
           f"See {', '.join(str(path) for path in sorted(directory.glob('*.*')))}.")
@@ -54,6 +72,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=runs.default_jobs(), help="runs at a time (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run (%(default)s)")
     parser.add_argument("--output", help="directory for the results (reproduce/NAME)")
+    parser.add_argument("--doc", action="store_true", help="also write the figure, reduced, to doc/figures/NAME.png")
     arguments = parser.parse_args()
     if arguments.list:
         for name in names():

@@ -9,6 +9,7 @@ import re
 import subprocess
 import sys
 import time
+from typing import Optional
 
 import numpy as np
 
@@ -18,10 +19,14 @@ TALUS = ROOT / os.environ.get("TALUS_BUILD", "build") / "talus"
 
 @dataclasses.dataclass
 class Run:
-    """One parameter file with changes; `label` holds what tells it from its sisters, by column of the table."""
+    """
+    One parameter file with changes; `label` holds what tells it from its sisters, by column of the table. `ranks`: where the
+    run asks for a number of its own.
+    """
     prm: str
     settings: dict
     label: dict
+    ranks: Optional[int] = None
 
     @property
     def name(self):
@@ -104,7 +109,7 @@ def execute(run, directory, ranks=1):
     settings = {**run.settings, "Output/Directory": directory, "Output/Overwrite": "true", "Output/CSV": "true"}
     start = time.perf_counter()
     # What the program writes goes beside its own files, which it replaces.
-    finished = subprocess.run(command(ROOT / run.prm, settings, ranks), cwd=ROOT, text=True,
+    finished = subprocess.run(command(ROOT / run.prm, settings, run.ranks or ranks), cwd=ROOT, text=True,
                               env={**os.environ, "OMP_NUM_THREADS": "1"},
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     (directory / "output.txt").write_text(finished.stdout)

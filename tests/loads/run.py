@@ -5,48 +5,13 @@ Usage: run.py TALUS WORK_DIRECTORY CASE RANKS [MPIRUN ...]
 
 CASE is the name of a function below that begins with case_; its files lie beside this one.
 """
-import csv
 import math
 import os
-import shutil
-import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-
-
-class Runs:
-    def __init__(self, talus, work, mpirun):
-        self.talus, self.work, self.mpirun, self.n_failed = talus, work, mpirun, 0
-
-    def run(self, prm, name, *settings):
-        """Runs a file with "Section/Entry = value"... and returns its directory."""
-        directory = os.path.join(self.work, name)
-        shutil.rmtree(directory, ignore_errors=True)
-        command = self.mpirun + [self.talus, os.path.join(HERE, prm)]
-        for setting in settings + (f"Output/Directory = {directory}",):
-            command += ["--set", setting]
-        environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
-        result = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if result.returncode != 0:
-            sys.exit(f"FAIL {name}: exit status {result.returncode}\n{result.stdout}")
-        return directory
-
-    def statistics(self, prm, name, *settings):
-        """The columns of the run's statistics by name, without units."""
-        return columns_of(os.path.join(self.run(prm, name, *settings), "statistics.csv"))
-
-    def check(self, name, error, bound):
-        is_good = abs(error) <= bound
-        self.n_failed += not is_good
-        print(f"{'  pass' if is_good else '  FAIL'} {name}: error / bound = {abs(error) / bound:.3g} (bound {bound:g})")
-
-
-def columns_of(path):
-    with open(path) as file:
-        header, *rows = csv.reader(line for line in file if not line.startswith("#"))
-    names = [name.split(" [")[0] for name in header]
-    return {name: [float(value) for value in column] for name, column in zip(names, zip(*rows))}
+sys.path.insert(0, os.path.dirname(HERE))
+from program import columns_of, last_particles, main, rms  # noqa: E402
 
 
 def maxima(times, values):
@@ -117,17 +82,6 @@ def case_damping(runs):
             wanted = s["kinetic energy"][0] * ((1 - alpha) / (1 + alpha))**n
             runs.check(f"alpha = {alpha}: energy after {n} half periods", energy / wanted - 1, 0.02 * n)
             runs.check(f"alpha = {alpha}: time of {n} half periods", time / (n * half) - 1, 0.01)
-
-
-def last_particles(directory):
-    """The particles at the end of a run, one dict each."""
-    name = max(name for name in os.listdir(directory) if name.startswith("particles_") and name.endswith(".csv"))
-    columns = columns_of(os.path.join(directory, name))
-    return [dict(zip(columns, row)) for row in zip(*columns.values())]
-
-
-def rms(values):
-    return math.sqrt(sum(value**2 for value in values) / len(values))
 
 
 def case_bar(runs, prm, length, stiffness):
@@ -249,12 +203,5 @@ def case_layer(runs):
         runs.check(f"{kind}: horizontal over vertical stress", max(abs(r - K0) for r in ratio), 0.01)
 
 
-def main():
-    talus, work, case, ranks = sys.argv[1:5]
-    runs = Runs(talus, work, sys.argv[5:] + ["-n", ranks] if ranks != "1" else [])
-    globals()["case_" + case](runs)
-    return runs.n_failed > 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(globals(), HERE))
