@@ -21,6 +21,8 @@ namespace Talus
 
     void initialize(const Kernel<dim> &kernel, WorkingSet<dim> &particles) const override
     {
+      if (!Scheme<dim>::needs_D)
+        return;
       const auto here = arrays(particles);
       Plain::for_each_stencil(particles, kernel, 0, particles.size(),
                               [&](const unsigned int p, const Stencil<dim> &stencil) {

@@ -55,7 +55,7 @@ namespace Talus
     void                   bind(WorkingSet<dim> &, TransferArrays<dim> &) const {} // sets arrays of own fields
     dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &, const unsigned int) const { return {}; }
 
-    /** Sets own fields from grad v and D before the first step. */
+    /** Sets own fields from grad v and D before the first step, if the scheme needs D. */
     void initialize(const TransferArrays<dim> &, const SingleBatch &, const dealii::SymmetricTensor<2, dim> &) const {}
 
     // template <class Batch>
