@@ -3,6 +3,8 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
+
 namespace Talus
 {
   /**
@@ -34,6 +36,23 @@ namespace Talus
     void clear() { values = 0.; }
     void clear_copies() { values.zero_out_ghost_values(); }
 
+    /**
+     * Factors of a node's numbers where it stands for its mirror image in some faces of the box, bit 2 d or 2 d + 1
+     * those of axis d: -1 for the components along their normals.
+     */
+    static const double *mirror(const unsigned int faces) { return mirror_factors[faces].data(); }
+
+    /** Counts the force among a node's numbers that are about to be mirrored; its image gets the opposite of it. */
+    void count_mirrored(const double *numbers, const unsigned int faces)
+    {
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        if (faces >> f & 1)
+          mirrored_force[f] += 2 * numbers[force + f / 2];
+    }
+
+    /** What each face bears of the last transfer to the nodes, besides its nodes: of this rank's particles [force]. */
+    std::array<double, 2 * dim> mirrored_force{};
+
     /** Adds what this rank has summed into copies to their owners. */
     void add_copies_to_owners() { values.compress(dealii::VectorOperation::add); }
 
@@ -50,6 +69,10 @@ namespace Talus
     const double *operator[](const unsigned int node) const { return values.begin() + stride * node; }
 
   private:
+    using MirrorFactors = std::array<std::array<double, stride>, 1u << (2 * dim)>;
+    static MirrorFactors       make_mirror_factors();
+    static const MirrorFactors mirror_factors;
+
     dealii::LinearAlgebra::distributed::Vector<double> values;
   };
 } // namespace Talus

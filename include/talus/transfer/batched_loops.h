@@ -158,6 +158,8 @@ namespace Talus
       dealii::Tensor<2, dim, Number> C;
       if constexpr (is_affine)
         C = scheme.affine(arrays, batch, second_moment(stencil), h);
+      if (is_affine && !stencil.is_product && scheme.projects_slip)
+        C = without_wall_shear(C, stencil.is_at_slip_wall);
       for (unsigned int e = 0; e < dim; ++e)
       {
         rows[Fields::mass] = 0.;
@@ -241,7 +243,10 @@ namespace Talus
       }
     }
 
-    /** Calls `body(i, a, node)` for the existing nodes of a stencil that is a list; a is the place along each axis. */
+    /**
+     * Calls `body(i, a, node, beyond)` for the existing nodes of a stencil that is a list. a is the place along each
+     * axis; the node stands for its mirror image in the faces `beyond`, if there are any.
+     */
     template <class Body>
     [[gnu::always_inline]] static void for_each_node(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                                      const unsigned int l, const Body &body)
@@ -249,21 +254,32 @@ namespace Talus
       const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
       for (unsigned int i = 0; i < stencil.n_nodes; ++i)
       {
-        const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
-        unsigned int node = nodes[k[0] + k[1] * lattice.stride[1] + (dim == 3 ? k[2] * lattice.stride[dim - 1] : 0)];
+        const unsigned int k[3]  = {i % n, i / n % n, i / (n * n)};
+        const int          place = k[0] + k[1] * lattice.stride[1] + (dim == 3 ? k[2] * lattice.stride[dim - 1] : 0);
+        unsigned int       node = nodes[place], beyond = 0;
+        if (node == Lattice<dim>::missing && stencil.has_images)
+        {
+          node   = lattice.image[stencil.first_node[l] + place];
+          beyond = lattice.beyond[stencil.first_node[l] + place];
+        }
         if (node != Lattice<dim>::missing)
-          body(i, k, node);
+          body(i, k, node, beyond);
       }
     }
 
     static void scatter_list(const Vectors &add, const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                              const unsigned int l, Fields &fields)
     {
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int node) {
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto node, const auto beyond) {
         const double phi   = stencil.value[i].data()[l];
         Node         value = phi * add.constant[l];
         for (unsigned int d = 0; d < dim; ++d)
           value += blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
+        if (beyond != 0)
+        {
+          fields.count_mirrored(value.data(), beyond);
+          value *= Node::load(Fields::mirror(beyond));
+        }
         add_to(fields[node], value);
       });
     }
@@ -410,10 +426,12 @@ namespace Talus
                             const Fields &fields, Sums &sums)
     {
       Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int node) {
-        const double *values = fields[node];
-        const Motion  v      = Motion::load(values + Fields::velocity);
-        const double  phi    = stencil.value[i].data()[l];
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto node, const auto beyond) {
+        const double *values = fields[node], *sign = Fields::mirror(beyond);
+        Motion        v   = Motion::load(values + Fields::velocity);
+        const double  phi = stencil.value[i].data()[l];
+        if (beyond != 0)
+          v *= Motion::load(sign + Fields::velocity);
         value += phi * v;
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -422,7 +440,7 @@ namespace Talus
             moment[d] += (phi * stencil.offset[d][k[d]].data()[l]) * v;
         }
         if constexpr (Sums::has_own_increment)
-          increment += phi * Motion::load(values + Fields::increment);
+          increment += phi * Motion::load(sign + Fields::increment) * Motion::load(values + Fields::increment);
       });
       sums.value[l] = value;
       for (unsigned int d = 0; d < dim; ++d)
