@@ -34,92 +34,107 @@ namespace Talus
 
       void scatter()
       {
-        for_each_stencil([&](const auto &batch, const LatticeBatch<dim, n> &stencil) {
+        for_each_stencil([&](const auto &batch, const auto &stencil) {
           const Number m = batch.load(mass), J = reference * batch.load(volume) / m;
           const auto   g_p = load_vector<dim>(batch, g);
+          Number       weight[n_nodes], moment[n_nodes];
+          for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            Number J_i = J;
+            for (unsigned int d = 0; d < dim; ++d)
+              J_i += g_p[d] * stencil.offset[d][place(i, d)];
+            weight[i] = m * stencil.value[i];
+            moment[i] = weight[i] * J_i;
+          }
           for (unsigned int l = 0; l < batch.size(); ++l)
-            for_each_node(stencil, l, [&](double *node, const unsigned int *k, const double *weight, const double *) {
-              double J_here = J.data()[l];
-              for (unsigned int d = 0; d < dim; ++d)
-                J_here += g_p[d].data()[l] * stencil.offset[d][k[d]].data()[l];
-              node[NodalFields<dim>::mass] += m.data()[l] * *weight;
-              node[mean<dim>] += m.data()[l] * *weight * J_here;
-            });
+            for (unsigned int i = 0; i < n_nodes; ++i)
+              if (double *node = find(stencil, l, i))
+              {
+                node[NodalFields<dim>::mass] += weight[i].data()[l];
+                node[mean<dim>] += moment[i].data()[l];
+              }
         });
       }
 
       void gather(const double alpha)
       {
-        for_each_stencil([&](const auto &batch, const LatticeBatch<dim, n> &stencil) {
+        for_each_stencil([&](const auto &batch, const auto &stencil) {
           Number                 mean_J = 0.;
           Tensor<1, dim, Number> g_p;
-          for (unsigned int l = 0; l < batch.size(); ++l)
+          for (unsigned int i = 0; i < n_nodes; ++i)
           {
-            double         sum = 0;
-            Tensor<1, dim> slope;
-            for_each_node(stencil, l,
-                          [&](const double *node, const unsigned int *, const double *weight, const double *gradient) {
-                            sum += *weight * node[mean<dim>];
-                            for (unsigned int d = 0; d < dim; ++d)
-                              slope[d] += gradient[d] * node[mean<dim>];
-                          });
-            mean_J.set(l, sum);
+            alignas(64) double values[native_width];
+            for (unsigned int l = 0; l < native_width; ++l)
+            {
+              const double *node = find(stencil, l, i);
+              values[l]          = node ? node[mean<dim>] : 0.; // has no weight where it does not exist
+            }
+            const Number J_i = Number::load(values);
+            mean_J += stencil.value[i] * J_i;
             for (unsigned int d = 0; d < dim; ++d)
-              g_p[d].set(l, slope[d]);
+              g_p[d] += stencil.gradient[d][i] * J_i;
           }
           store_vector<dim>(batch, g, g_p);
 
-          const Number V = batch.load(volume), J = reference * V / batch.load(mass),
-                       ratio = 1. + alpha * (mean_J / J - 1.);
+          const Number V     = batch.load(volume);
+          const Number ratio = 1. + alpha * (mean_J * batch.load(mass) / (reference * V) - 1.);
           batch.store(volume, ratio * V);
-          Number stretch = 1.;
-          for (unsigned int l = 0; l < batch.size(); ++l)
-            stretch.set(l, std::pow(ratio.data()[l], 1. / dim));
-          store_matrix<dim>(batch, F, stretch * load_matrix<dim>(batch, F));
+          store_matrix<dim>(batch, F, root(ratio) * load_matrix<dim>(batch, F));
         });
       }
 
     private:
-      static constexpr unsigned int n = Function::n;
+      static constexpr unsigned int n = Function::n, n_nodes = LatticeBatch<dim, n>::n_nodes;
 
+      /** The place of a node of a list along an axis. */
+      static unsigned int place(const unsigned int i, const unsigned int d)
+      {
+        return d == 0 ? i % n : (d == 1 ? i / n % n : i / (n * n));
+      }
+
+      /** The stretch in each direction that changes the volume by `ratio`. */
+      static Number root(const Number &ratio)
+      {
+        if constexpr (dim == 2)
+          return sqrt(ratio);
+        Number result;
+        for (unsigned int l = 0; l < native_width; ++l)
+          result.set(l, std::cbrt(ratio.data()[l]));
+        return result;
+      }
+
+      /** Calls `body(batch, stencil)` for all particles; all stencils are lists. */
       template <class Body>
       void for_each_stencil(const Body &body)
       {
         LatticeBatch<dim, n> stencil;
         for_each_batch(range.begin, range.end, [&](const auto batch) {
           evaluate_batch(function, lattice, treatment, load_vector<dim>(batch, position), stencil);
+          if (stencil.is_product)
+            for (unsigned int i = 0; i < n_nodes; ++i)
+            {
+              stencil.value[i] = stencil.weight[0][place(i, 0)];
+              for (unsigned int d = 1; d < dim; ++d)
+                stencil.value[i] *= stencil.weight[d][place(i, d)];
+              for (unsigned int d = 0; d < dim; ++d)
+              {
+                stencil.gradient[d][i] = stencil.derivative[d][place(i, d)];
+                for (unsigned int e = 0; e < dim; ++e)
+                  if (e != d)
+                    stencil.gradient[d][i] *= stencil.weight[e][place(i, e)];
+              }
+            }
           body(batch, stencil);
         });
       }
 
-      /** Calls `body(numbers of the node, its place along each axis, weight, gradient)` for the nodes of a particle. */
-      template <class Body>
-      void for_each_node(const LatticeBatch<dim, n> &stencil, const unsigned int l, const Body &body)
+      /** The numbers of a node, null if it does not exist. */
+      double *find(const LatticeBatch<dim, n> &stencil, const unsigned int l, const unsigned int i)
       {
-        const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
-        for (unsigned int i = 0; i < stencil.n_nodes; ++i)
-        {
-          const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
-          const unsigned int node =
-            nodes[k[0] + k[1] * lattice.stride[1] + (dim == 3 ? k[2] * lattice.stride[dim - 1] : 0)];
-          if (node == Lattice<dim>::missing)
-            continue;
-          double weight = 1, gradient[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            gradient[d] = 1;
-            for (unsigned int e = 0; e < dim; ++e)
-              gradient[d] *= (d == e ? stencil.derivative : stencil.weight)[e][k[e]].data()[l];
-            weight *= stencil.weight[d][k[d]].data()[l];
-          }
-          if (!stencil.is_product)
-          {
-            weight = stencil.value[i].data()[l];
-            for (unsigned int d = 0; d < dim; ++d)
-              gradient[d] = stencil.gradient[d][i].data()[l];
-          }
-          body(grid.fields[node], k, &weight, gradient);
-        }
+        const int entry = stencil.first_node[l] + place(i, 0) + place(i, 1) * lattice.stride[1] +
+                          (dim == 3 ? place(i, 2) * lattice.stride[dim - 1] : 0);
+        const unsigned int node = lattice.node[entry];
+        return node == Lattice<dim>::missing ? nullptr : grid.fields[node];
       }
 
       const Function                 &function;

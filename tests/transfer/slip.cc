@@ -85,7 +85,7 @@ void wall_shear()
       }
     return sum(sum_of_row) / sum(count) / h;
   };
-  const unsigned int many = dim == 2 ? 1000 : 100;
+  const auto steps = dim == 2 ? std::vector<unsigned int>{10, 100, 1000} : std::vector<unsigned int>{10, 100};
   for (const std::string transfer : {"TPIC", "APIC"})
   {
     if (dim == 2 && transfer == "TPIC")
@@ -95,13 +95,20 @@ void wall_shear()
       check_range("WLS, 100 steps", grow("WLS", transfer, "", 100), 3.7, 4.1);
       check_range("WLS, 1000 steps", grow("WLS", transfer, "", 1000), 6.5, 7.5);
     }
-    for (const unsigned int n : {1u, 10u, 100u, many})
+    for (const std::string treatment : {"WLS", "WLS separable"})
     {
-      const std::string after = transfer + " after " + std::to_string(n) + ", ";
-      for (const std::string treatment : {"WLS", "WLS separable"})
-        check_range(after + treatment + ", projection", grow(treatment, transfer, project, n), 0.45, 0.55);
-      check_range(after + "mirror", grow("mirror", transfer, "", n), 0.45, 0.55);
+      const std::string name   = transfer + ", " + treatment + ", projection, steps: ";
+      double            before = grow(treatment, transfer, project, 1);
+      check(name + "1", before - 0.87856, 1e-4);
+      for (const unsigned int n : steps)
+      {
+        const double now = grow(treatment, transfer, project, n);
+        check_range(name + std::to_string(n), now, 0.5, before);
+        before = now;
+      }
     }
+    for (const unsigned int n : steps)
+      check_range(transfer + ", mirror, steps: " + std::to_string(n), grow("mirror", transfer, "", n), 0.4999, 0.5001);
   }
 }
 
@@ -174,7 +181,8 @@ void projection_definition()
   for (const std::string treatment : {"WLS", "WLS separable", "MLS"})
     for (const bool is_plain : {false, true})
     {
-      // Slip on the lower x and upper y faces; the others are free or no-slip.
+      // Slip on the lower x and upper y faces; the others are free or no-slip, which ends at the edges of the slip
+      // walls.
       const std::string conditions = walls({{"slip", faces("0, 3")}, {"no-slip", faces("2")}});
       Setup<dim>        setup(small_box<dim>(treatment, "TPIC", project) + conditions);
       setup.transfer->is_plain = is_plain;
@@ -194,9 +202,7 @@ void projection_definition()
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double c = expected.grid.lattice.coordinate(x[d], d);
-          // The nodes on a slip wall that are no-slip as well, in the corner, make its stencils no-slip.
-          const bool is_held = d == 0 && expected.grid.lattice.coordinate(x[1], 1) < 1.5;
-          if (!(d == 0 ? c < 0.5 : c > expected.grid.lattice.n_cells[1] - 0.5) || is_held)
+          if (!(d == 0 ? c < 0.5 : c > expected.grid.lattice.n_cells[1] - 0.5))
             continue;
           Tensor<1, dim> normal;
           normal[d]              = d == 0 ? -1 : 1;
@@ -260,12 +266,15 @@ void projection_elsewhere()
   }
 }
 
-/** Half of a symmetric body with a mirror moves as half of the whole body does; reaction included. */
+/**
+ * Half of a symmetric body with a mirror moves as half of the whole body does. Not with FLIP: the nodes on the mirror
+ * know the momentum of one side alone before the condition acts, and FLIP gathers the change.
+ */
 template <int dim>
 void mirror_and_whole()
 {
   for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
-    for (const std::string transfer : {"FLIP", "PIC", "APIC", "TPIC"})
+    for (const std::string transfer : {"PIC", "APIC", "TPIC"})
       for (const unsigned int axis : {0u, 1u})
       {
         // The plane is x_axis = 0; the half with a mirror is above, or below where it meets the other face of its axis.
