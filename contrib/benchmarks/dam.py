@@ -142,13 +142,14 @@ def cured_figures(by):
     for transfer, cure in (("TPIC", "projection + J"), ("APIC", "projection + J"), ("TPIC", "mirror + J")):
         result = by["dam", "quadratic B-spline", transfer, cure]
         name = f"{transfer}, {cure}, "
-        values.append(report.Figure(name + "rms of the first row at t = .3", at(result, 0.3, rms, *FLOOR_ROWS["rms y < h/2"]),
-                                    upper=0.10))
+        values.append(report.Figure(name + "rms of the first row at t = .3",
+                                    at(result, 0.3, rms, *FLOOR_ROWS["rms y < h/2"]), upper=0.10))
         values.append(report.Figure(name + "lowest p at t = .3", lowest(result, 0.3), lower=-0.15))
         values.append(report.Figure(name + "arrival, t sqrt(g/H)", arrival(result), 2.30, 2.55))
     for transfer, cure in STILL:
         result = by["still water", "quadratic B-spline", transfer, cure]
-        values.append(report.Figure(f"still water, {transfer}, {cure}, median noise", at(result, 1, median), upper=1e-3))
+        values.append(report.Figure(f"still water, {transfer}, {cure}, median noise", at(result, 1, median),
+                                    upper=1e-3))
     return values
 
 
@@ -177,18 +178,19 @@ def draw(results, path):
 
 def draw_floors(results, path):
     """Pressure near the floor at t = .3."""
-    wanted = [("FLIP", "none"), ("TPIC", "none"), ("TPIC", "projection"), ("TPIC", "projection + J"), ("TPIC", "mirror + J")]
+    wanted = [("FLIP", "none"), ("TPIC", "none"), ("TPIC", "projection"), ("TPIC", "projection + J"),
+              ("TPIC", "mirror + J")]
     by = {(result.run.label["transfer"], result.run.label["cure"]): result for result in results
           if result.run.label["kernel"] == "quadratic B-spline"}
     shown = [key for key in wanted if key in by]
-    figure, axes = plt.subplots(len(shown), 1, figsize=(9, 1.5 * len(shown) + 0.5), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(len(shown), 1, figsize=(8, 1.2 * len(shown) + 0.4), squeeze=False, layout="constrained")
     for axis, key in zip(axes[:, 0], shown):
         particles = by[key].particles(0.3)
-        drawn = axis.scatter(particles["x"], particles["y"], c=particles["pressure"] / SCALE, s=9, vmin=-0.5, vmax=1,
+        drawn = axis.scatter(particles["x"], particles["y"], c=particles["pressure"] / SCALE, s=14, vmin=-0.5, vmax=1,
                              cmap="viridis", linewidths=0)
-        axis.set(xlim=(0, 1.9), ylim=(0, 0.24), aspect="equal", xticks=[], yticks=[])
+        axis.set(xlim=(0.85, 1.95), ylim=(0, 0.16), aspect="equal", xticks=[], yticks=[])
         axis.set_title(", ".join(key).replace(", none", ""), fontsize=9)
     figure.colorbar(drawn, ax=list(axes[:, 0]), label="p / (rho g H)", extend="min", aspect=30)
     figure.suptitle("Dam break, h = .04, t = .3 s: pressure of the particles near the floor")
-    figure.savefig(path, dpi=100)
+    figure.savefig(path, dpi=90)
     plt.close(figure)
