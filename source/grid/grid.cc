@@ -171,9 +171,9 @@ namespace Talus
     const IndexSet owned = dof_handler.locally_owned_dofs();
     IndexSet       relevant;
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    fields.reinit(owned, relevant, communicator);
+    const IndexSet known = relevant;
 
-    // The vector's local order: owned nodes, then the others by global number.
+    // Local numbers: owned nodes, then the others by global number.
     relevant.subtract_set(owned);
     const auto local = [&](const types::global_dof_index dof) {
       return owned.is_element(dof) ? owned.index_within_set(dof) : owned.n_elements() + relevant.index_within_set(dof);
@@ -199,8 +199,13 @@ namespace Talus
       first.fill(0), last.fill(0);
 
     lattice.resize_tables(first, last);
+    std::vector<unsigned int> places(node_index.size());
     for (unsigned int node = 0; node < node_index.size(); ++node)
-      lattice.node[lattice.table_index(node_index[node])] = node;
+    {
+      places[node]               = lattice.table_index(node_index[node]);
+      lattice.node[places[node]] = node;
+    }
+    fields.reinit(owned, known, communicator, places, lattice.node.size());
     for (const auto &cell : triangulation.active_cell_iterators())
       if (!cell->is_artificial())
       {
@@ -387,8 +392,8 @@ namespace Talus
           beyond[entry] |= 1u << (2 * d + 1);
           index[d] = 2 * n_cells[d] - index[d];
         }
-      if (beyond[entry] != 0 && is_in_table(index))
-        image[entry] = node[table_index(index)];
+      if (beyond[entry] != 0 && is_in_table(index) && node[table_index(index)] != missing)
+        image[entry] = table_index(index);
     }
   }
 

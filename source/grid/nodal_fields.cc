@@ -1,27 +1,113 @@
 #include <talus/grid/nodal_fields.h>
 
+#include <algorithm>
+#include <new>
+
 namespace Talus
 {
   using namespace dealii;
 
   namespace
   {
-    /** Every index of `nodes` replaced by its block of `stride` indices. */
-    IndexSet blocked(const IndexSet &nodes, const unsigned int stride)
-    {
-      IndexSet indices(nodes.size() * stride);
-      for (auto interval = nodes.begin_intervals(); interval != nodes.end_intervals(); ++interval)
-        indices.add_range(*interval->begin() * stride, (interval->last() + 1) * stride);
-      indices.compress();
-      return indices;
-    }
-  } // namespace
+    constexpr int message_tag = 7001; // no other part of the program uses it
+  }
 
   template <int dim>
-  void NodalFields<dim>::reinit(const IndexSet &owned_nodes, const IndexSet &relevant_nodes, MPI_Comm communicator)
+  void NodalFields<dim>::reinit(const IndexSet &owned_nodes, const IndexSet &relevant_nodes, MPI_Comm communicator,
+                                const std::vector<unsigned int> &places, const std::size_t n_places)
   {
     static_assert(1 + 2 * dim <= stride, "mass and two vectors must fit");
-    values.reinit(blocked(owned_nodes, stride), blocked(relevant_nodes, stride), communicator);
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_nodes, relevant_nodes, communicator);
+    place       = places;
+    AssertDimension(place.size(), partitioner->locally_owned_size() + partitioner->n_ghost_indices());
+
+    // Pages that are never touched must not exist: memory from calloc, moved to the begin of a cache line.
+    constexpr std::size_t line = 64;
+    memory.reset(std::calloc(n_places * stride * sizeof(double) + line, 1));
+    if (memory == nullptr)
+      throw std::bad_alloc();
+    values = reinterpret_cast<double *>((reinterpret_cast<std::size_t>(memory.get()) + line - 1) / line * line);
+
+    owned.clear();
+    copies.clear();
+    unsigned int next = partitioner->locally_owned_size();
+    for (const auto &[rank, n] : partitioner->ghost_targets())
+    {
+      copies.push_back({rank, {}, std::vector<double>(n * stride)});
+      for (unsigned int i = 0; i < n; ++i)
+        copies.back().nodes.push_back(next++);
+    }
+    std::vector<unsigned int> sent;
+    for (const auto &[begin, end] : partitioner->import_indices())
+      for (unsigned int i = begin; i < end; ++i)
+        sent.push_back(i);
+    auto from = sent.begin();
+    for (const auto &[rank, n] : partitioner->import_targets())
+    {
+      owned.push_back({rank, {from, from + n}, std::vector<double>(n * stride)});
+      from += n;
+    }
+    requests.resize(owned.size() + copies.size());
+  }
+
+  template <int dim>
+  void NodalFields<dim>::clear()
+  {
+    for (unsigned int i = 0; i < n_local(); ++i)
+      std::fill_n((*this)[i], stride, 0.);
+  }
+
+  template <int dim>
+  void NodalFields<dim>::clear_copies()
+  {
+    for (unsigned int i = n_owned(); i < n_local(); ++i)
+      std::fill_n((*this)[i], stride, 0.);
+  }
+
+  template <int dim>
+  template <class Receive>
+  void NodalFields<dim>::exchange(std::vector<Message> &out, std::vector<Message> &in, const Receive &receive)
+  {
+    const MPI_Comm communicator = partitioner->get_mpi_communicator();
+    auto           request      = requests.begin();
+    for (Message &message : in)
+      MPI_Irecv(message.buffer.data(), message.buffer.size(), MPI_DOUBLE, message.rank, message_tag, communicator,
+                &*request++);
+    for (Message &message : out)
+    {
+      double *next = message.buffer.data();
+      for (const unsigned int i : message.nodes)
+        next = std::copy_n((*this)[i], stride, next);
+      MPI_Isend(message.buffer.data(), message.buffer.size(), MPI_DOUBLE, message.rank, message_tag, communicator,
+                &*request++);
+    }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    // In the order of the ranks and not of arrival: sums are then the same in each run.
+    for (const Message &message : in)
+    {
+      const double *next = message.buffer.data();
+      for (const unsigned int i : message.nodes)
+      {
+        receive((*this)[i], next);
+        next += stride;
+      }
+    }
+  }
+
+  template <int dim>
+  void NodalFields<dim>::add_copies_to_owners()
+  {
+    exchange(copies, owned, [](double *node, const double *received) {
+      for (unsigned int c = 0; c < stride; ++c)
+        node[c] += received[c];
+    });
+    clear_copies();
+  }
+
+  template <int dim>
+  void NodalFields<dim>::update_copies()
+  {
+    exchange(owned, copies, [](double *node, const double *received) { std::copy_n(received, stride, node); });
   }
 
   template <int dim>

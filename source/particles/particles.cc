@@ -196,7 +196,7 @@ namespace Talus
       {
         alignas(64) int base[dim][Number::n_lanes];
         for (unsigned int d = 0; d < dim; ++d)
-          floor(coordinate[d] - Number(stencil_shift), base[d]);
+          store_integers(floor(coordinate[d] - Number(stencil_shift)), base[d]);
         for (unsigned int l = 0; l < batch.size(); ++l)
         {
           typename Lattice<dim>::Index index;

@@ -131,10 +131,10 @@ namespace Talus
       /** The numbers of a node, null if it does not exist. */
       double *find(const LatticeBatch<dim, n> &stencil, const unsigned int l, const unsigned int i)
       {
-        const int entry = stencil.first_node[l] + place(i, 0) + place(i, 1) * lattice.stride[1] +
-                          (dim == 3 ? place(i, 2) * lattice.stride[dim - 1] : 0);
-        const unsigned int node = lattice.node[entry];
-        return node == Lattice<dim>::missing ? nullptr : grid.fields[node];
+        unsigned int at = stencil.first_node[l];
+        for (unsigned int d = 0; d < dim; ++d)
+          at += place(i, d) * lattice.stride[d];
+        return lattice.node[at] == Lattice<dim>::missing ? nullptr : grid.fields.at_place(at);
       }
 
       const Function                 &function;

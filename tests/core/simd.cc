@@ -65,11 +65,21 @@ namespace
 
     int          index[width], wanted[width];
     const double steps[8] = {1.5, -0.25, -1., 0., 7.999, -3.0001, 2., -0.999};
-    const Number whole    = floor(Number::load(steps), index);
+    const Number whole    = floor(Number::load(steps));
+    store_integers(whole, index);
     double       wrong    = 0;
     for (int l = 0; l < width; ++l)
       wrong += (whole[l] != std::floor(steps[l])) + (index[l] != static_cast<int>(std::floor(steps[l])));
     check(name + "floor", wrong, 0.5);
+
+    wrong = any(a < a) + !any(a <= a);
+    for (int l = 0; l < width; ++l)
+    {
+      Number one = 0.;
+      one.set(l, -1.);
+      wrong += !any(one < Number(0.)) + any(one > Number(0.));
+    }
+    check(name + "any", wrong, 0.5);
 
     for (int l = 0; l < width; ++l)
       wanted[l] = (3 * l + 5) % 16;

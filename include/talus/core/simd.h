@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <cstring>
+#ifdef __SSE2__
+#  include <immintrin.h>
+#endif
 
 namespace Talus
 {
@@ -31,6 +34,44 @@ namespace Talus
     TALUS_REGISTER(4)
     TALUS_REGISTER(8)
 #undef TALUS_REGISTER
+
+    // What the vector extensions lack: the largest whole number not above x, and whether a lane's first bit is set.
+    template <class Double>
+    Double floor_lanes(Double x)
+    {
+      for (unsigned int l = 0; l < sizeof(x) / sizeof(double); ++l)
+        x[l] = std::floor(x[l]);
+      return x;
+    }
+    template <class Integer>
+    bool any_lane(const Integer &mask)
+    {
+      long long result = 0;
+      for (unsigned int l = 0; l < sizeof(mask) / sizeof(double); ++l)
+        result |= mask[l];
+      return result != 0;
+    }
+#ifdef __SSE2__
+    inline bool any_lane(const Register<2>::Integer &mask) { return _mm_movemask_pd((__m128d)mask) != 0; }
+#endif
+#ifdef __SSE4_1__
+    inline Register<2>::Double floor_lanes(const Register<2>::Double x) { return _mm_floor_pd(x); }
+#endif
+#ifdef __AVX__
+    inline bool                any_lane(const Register<4>::Integer &mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
+    inline Register<4>::Double floor_lanes(const Register<4>::Double x) { return _mm256_floor_pd(x); }
+#endif
+#ifdef __AVX512F__
+    inline bool any_lane(const Register<8>::Integer &mask)
+    {
+      return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+    }
+    inline Register<8>::Double floor_lanes(const Register<8>::Double x)
+    {
+      // The form without a mask warns of an uninitialized value in GCC 12.
+      return _mm512_mask_roundscale_pd(x, 0xff, x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    }
+#endif
   } // namespace internal
 
   /**
@@ -80,10 +121,7 @@ namespace Talus
         Integer all = a.part[0];
         for (int i = 1; i < n_parts; ++i)
           all |= a.part[i];
-        long long result = 0;
-        for (int l = 0; l < n_part; ++l)
-          result |= all[l];
-        return result != 0;
+        return internal::any_lane(all);
       }
       /** `a` in the lanes where the condition holds, elsewhere `b`. */
       friend Simd select(const Mask &condition, const Simd &a, const Simd &b)
@@ -276,21 +314,24 @@ namespace Talus
   }
   inline double sqrt(const double x) { return std::sqrt(x); }
 
-  /** The largest whole number not above x, |x| < 2^31, in each lane; also as integers, in `index`. */
+  /** The largest whole number not above x in each lane. */
   template <int width>
-  Simd<width> floor(const Simd<width> &x, int *index)
+  Simd<width> floor(Simd<width> x)
+  {
+    for (int i = 0; i < x.n_parts; ++i)
+      x.part[i] = internal::floor_lanes(x.part[i]);
+    return x;
+  }
+
+  /** Whole numbers, |x| < 2^31, as integers. */
+  template <int width>
+  void store_integers(const Simd<width> &x, int *integers)
   {
     using Index = typename internal::Register<Simd<width>::n_part>::Index;
-    Simd<width> result;
     for (int i = 0; i < x.n_parts; ++i)
     {
-      Index      whole     = __builtin_convertvector(x.part[i], Index);
-      const auto truncated = __builtin_convertvector(whole, typename Simd<width>::Part);
-      // Truncation has rounded negative numbers up; a true lane is -1.
-      whole += __builtin_convertvector(truncated > x.part[i], Index);
-      std::memcpy(index + i * x.n_part, &whole, sizeof(whole));
-      result.part[i] = __builtin_convertvector(whole, typename Simd<width>::Part);
+      const Index whole = __builtin_convertvector(x.part[i], Index);
+      std::memcpy(integers + i * x.n_part, &whole, sizeof(whole));
     }
-    return result;
   }
 } // namespace Talus

@@ -37,7 +37,7 @@ namespace Talus
 
     std::vector<Faces> slip_faces;   // faces that a stencil reaches which begins there, if all its nodes on them slip
     std::vector<Faces> beyond;       // faces beyond which the index lies
-    std::vector<unsigned int> image; // where there are any: the node that is its mirror image in them
+    std::vector<unsigned int> image; // where there are any: the place of its mirror image in them, if a node is there
 
     /** Lattice coordinate of `x` along axis `d`: integer at nodes. */
     double coordinate(const double x, const unsigned int d) const { return (x - origin[d]) * inverse_h[d]; }

@@ -123,20 +123,17 @@ namespace Talus
   {
     using Number                        = Simd<native_width>;
     constexpr unsigned int n            = Function::n;
-    constexpr int          w            = Number::n_lanes;
     const bool             needs_margin = treatment.needs_boundary_scale(); // Steffen changes complete stencils as well
     const bool             least_squares = n > 2 && treatment.is_everywhere();
 
     std::array<Number, dim> first;
     auto                    is_at_face = Number(1.) < Number(0.);
-    for (unsigned int l = 0; l < w; ++l)
-      stencil.first_node[l] = 0;
+    Number                  place      = 0.; // a whole number below 2^31
     for (unsigned int d = 0; d < dim; ++d)
     {
-      alignas(64) int base[w];
-      const Number    coordinate = (x[d] - lattice.origin[d]) * lattice.inverse_h[d];
-      first[d]                   = floor(coordinate - Number(Function::shift), base);
-      const Number s             = coordinate - first[d];
+      const Number coordinate = (x[d] - lattice.origin[d]) * lattice.inverse_h[d];
+      first[d]                = floor(coordinate - Number(Function::shift));
+      const Number s          = coordinate - first[d];
       function.evaluate(s, stencil.weight[d], stencil.derivative[d]);
       for (unsigned int k = 0; k < n; ++k)
         stencil.offset[d][k] = (static_cast<double>(k) - s) * lattice.h[d];
@@ -153,11 +150,11 @@ namespace Talus
       else
         for (unsigned int k = 0; k < n; ++k)
           stencil.derivative[d][k] *= lattice.inverse_h[d];
-      for (unsigned int l = 0; l < w; ++l)
-        stencil.first_node[l] += (base[l] - lattice.first[d]) * lattice.stride[d];
+      place += (first[d] - static_cast<double>(lattice.first[d])) * static_cast<double>(lattice.stride[d]);
       is_at_face = is_at_face | (first[d] < Number(needs_margin ? 1. : 0.)) |
                    (first[d] > Number(lattice.n_cells[d] + (needs_margin ? 0. : 1.) - n));
     }
+    store_integers(place, stencil.first_node);
     stencil.is_product = !any(is_at_face);
     if (!stencil.is_product)
       correct_batch<dim, Function>(function, lattice, treatment, first, stencil);

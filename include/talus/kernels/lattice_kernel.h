@@ -142,11 +142,11 @@ namespace Talus
             stencil.beyond[i] = 0;
             if (!is_complete && row[a] == Lattice<dim>::missing)
             {
-              const auto entry  = row + a - this->lattice->node.data();
-              stencil.node[i]   = this->lattice->image[entry];
-              stencil.beyond[i] = this->lattice->beyond[entry];
-              if (stencil.node[i] == Lattice<dim>::missing)
+              const auto place = row + a - this->lattice->node.data();
+              if (this->lattice->image[place] == Lattice<dim>::missing)
                 continue; // at the very end of the support
+              stencil.node[i]   = this->lattice->node[this->lattice->image[place]];
+              stencil.beyond[i] = this->lattice->beyond[place];
             }
             stencil.weight[i]      = x.weight[a] * wyz;
             stencil.gradient[0][i] = x.derivative[a] * wyz;

@@ -209,9 +209,8 @@ namespace Talus
       const auto slope = [&](const unsigned int d, const unsigned int k) {
         return blend(is_affine ? factors.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
       };
-      const int           stride_y = lattice.stride[1], stride_z = lattice.stride[dim - 1];
-      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
-      double *const       data  = fields[0];
+      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1], stride_z = Fields::stride * lattice.stride[dim - 1];
+      double *const        first = fields.at_place(stencil.first_node[l]);
 
       Node weight[dim][n], row[n], across[n]; // sums along x; what comes from y
       for (unsigned int d = 0; d < dim; ++d)
@@ -225,7 +224,7 @@ namespace Talus
       if constexpr (dim == 2)
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
-            add_to(data + Fields::stride * nodes[b * stride_y + a], weight[1][b] * row[a] + weight[0][a] * across[b]);
+            add_to(first + b * stride_y + a * Fields::stride, weight[1][b] * row[a] + weight[0][a] * across[b]);
       else
       {
         Node along[n]; // from z
@@ -234,43 +233,44 @@ namespace Talus
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
           {
-            const Node          plane = weight[1][b] * row[a] + weight[0][a] * across[b];
-            const Node          both  = weight[0][a] * weight[1][b];
-            const unsigned int *node  = nodes + b * stride_y + a;
+            const Node    plane = weight[1][b] * row[a] + weight[0][a] * across[b];
+            const Node    both  = weight[0][a] * weight[1][b];
+            double *const node  = first + b * stride_y + a * Fields::stride;
             for (unsigned int c = 0; c < n; ++c)
-              add_to(data + Fields::stride * node[c * stride_z], weight[dim - 1][c] * plane + both * along[c]);
+              add_to(node + c * stride_z, weight[dim - 1][c] * plane + both * along[c]);
           }
       }
     }
 
     /**
-     * Calls `body(i, a, node, beyond)` for the existing nodes of a stencil that is a list. a is the place along each
-     * axis; the node stands for its mirror image in the faces `beyond`, if there are any.
+     * Calls `body(i, k, place, beyond)` for the existing nodes of a stencil that is a list; k is where along each axis.
+     * The node at the place stands for its mirror image in the faces `beyond`, if there are any.
      */
     template <class Body>
     [[gnu::always_inline]] static void for_each_node(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                                      const unsigned int l, const Body &body)
     {
-      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
       for (unsigned int i = 0; i < stencil.n_nodes; ++i)
       {
-        const unsigned int k[3]  = {i % n, i / n % n, i / (n * n)};
-        const int          place = k[0] + k[1] * lattice.stride[1] + (dim == 3 ? k[2] * lattice.stride[dim - 1] : 0);
-        unsigned int       node = nodes[place], beyond = 0;
-        if (node == Lattice<dim>::missing && stencil.has_images)
+        const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
+        unsigned int       place = stencil.first_node[l], beyond = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          place += k[d] * lattice.stride[d];
+        if (lattice.node[place] == Lattice<dim>::missing)
         {
-          node   = lattice.image[stencil.first_node[l] + place];
-          beyond = lattice.beyond[stencil.first_node[l] + place];
+          if (!stencil.has_images || lattice.image[place] == Lattice<dim>::missing)
+            continue;
+          beyond = lattice.beyond[place];
+          place  = lattice.image[place];
         }
-        if (node != Lattice<dim>::missing)
-          body(i, k, node, beyond);
+        body(i, k, place, beyond);
       }
     }
 
     static void scatter_list(const Vectors &add, const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                              const unsigned int l, Fields &fields)
     {
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto node, const auto beyond) {
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
         const double phi   = stencil.value[i].data()[l];
         Node         value = phi * add.constant[l];
         for (unsigned int d = 0; d < dim; ++d)
@@ -280,7 +280,7 @@ namespace Talus
           fields.count_mirrored(value.data(), beyond);
           value *= Node::load(Fields::mirror(beyond));
         }
-        add_to(fields[node], value);
+        add_to(fields.at_place(place), value);
       });
     }
 
@@ -350,10 +350,9 @@ namespace Talus
       const auto lever = [&](const unsigned int d, const unsigned int k) {
         return Motion(factors.moment[d][k].data()[l]);
       };
-      constexpr bool      gathers_B = Scheme::gathers_B;
-      const int           stride_y = lattice.stride[1], stride_z = lattice.stride[dim - 1];
-      const unsigned int *nodes = lattice.node.data() + stencil.first_node[l];
-      const double *const data  = fields[0];
+      constexpr bool       gathers_B = Scheme::gathers_B;
+      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1], stride_z = Fields::stride * lattice.stride[dim - 1];
+      const double *const  first = fields.at_place(stencil.first_node[l]);
 
       Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
       for (unsigned int c = 0; c < (dim == 3 ? n : 1); ++c)
@@ -363,10 +362,10 @@ namespace Talus
         for (unsigned int b = 0; b < n; ++b)
         {
           Motion              row = 0., row_gradient = 0., row_moment = 0., row_increment = 0.;
-          const unsigned int *node = nodes + b * stride_y + (dim == 3 ? c * stride_z : 0);
+          const double *const node = first + b * stride_y + (dim == 3 ? c * stride_z : 0);
           for (unsigned int a = 0; a < n; ++a)
           {
-            const double *values = data + Fields::stride * node[a];
+            const double *values = node + a * Fields::stride;
             const Motion  v      = Motion::load(values + Fields::velocity);
             row += weight(0, a) * v;
             row_gradient += slope(0, a) * v;
@@ -426,8 +425,8 @@ namespace Talus
                             const Fields &fields, Sums &sums)
     {
       Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto node, const auto beyond) {
-        const double *values = fields[node], *sign = Fields::mirror(beyond);
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
+        const double *values = fields.at_place(place), *sign = Fields::mirror(beyond);
         Motion        v   = Motion::load(values + Fields::velocity);
         const double  phi = stencil.value[i].data()[l];
         if (beyond != 0)
