@@ -41,6 +41,11 @@ talus_compare(block_2d linear_FLIP "${ranks}")
 talus_compare(balls_3d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = TPIC")
 talus_compare(balls_3d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
 talus_compare(balls_3d uGIMP_FLIP "${ranks}" "Kernel/Type = uGIMP" "Transfer/Type = FLIP")
+foreach(pool pool_2d pool_3d)
+  talus_compare(${pool} projection_TPIC "${ranks}"
+    "Kernel/Boundary treatment = WLS separable" "Transfer/Slip projection = true")
+  talus_compare(${pool} mirror_APIC "${ranks}" "Kernel/Boundary treatment = mirror" "Transfer/Type = APIC")
+endforeach()
 # Writing output must not change the run.
 talus_compare(disk_2d output "1;2, Output/Step interval = 7, Output/CSV = true, Output/Grid = true"
   "Transfer/Type = APIC")

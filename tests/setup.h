@@ -8,6 +8,7 @@
 #include <talus/particles/particles.h>
 #include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
+#include <talus/transfer/volume_smoothing.h>
 
 #include "check.h"
 
@@ -119,6 +120,7 @@ namespace Test
     /** Transfers both ways; with dt = 0 particles stay where they are and forces do nothing. */
     void step(const double dt, const double time = 0)
     {
+      boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);
       scatter(time);
       grid.fields.add_copies_to_owners();
       grid.update_velocity(dt);
@@ -168,6 +170,7 @@ namespace Test
     Boundary<dim>                           boundary;
     ParsedVector<dim>                       acceleration;
     Tractions<dim>                          tractions;
+    VolumeSmoothing<dim>                    smoothing;
 
   private:
     void create()
@@ -176,11 +179,13 @@ namespace Test
         body->shape->create(grid.lattice.h);
       grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
       particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
+      smoothing.add_fields(materials, particles);
       if (!bodies.empty())
         particles.create(grid, bodies, materials);
-      transfer->initialize(*kernel, particles);
       for (auto &condition : boundary.conditions)
         condition->attach(grid);
+      boundary.mark_slip_walls(1e-300, particles.n_stencil_nodes, grid);
+      transfer->initialize(*kernel, particles);
       for (auto &traction : tractions.loads)
         traction->attach(grid, bodies, particles);
     }

@@ -77,11 +77,49 @@ namespace Talus
     this->damping = &damping;
     reaction      = 0;
     work          = 0;
-    // A step belongs to the interval in which it ends: intervals that follow each other do not overlap.
-    if ((start_time.empty() || time > start_time[0]) && (end_time.empty() || time <= end_time[0]))
+    if (acts(time))
       prescribe(time, grid);
+  }
+
+  template <int dim>
+  bool Condition<dim>::acts(const double time) const
+  {
+    // A step belongs to the interval in which it ends: intervals that follow each other do not overlap.
+    return (start_time.empty() || time > start_time[0]) && (end_time.empty() || time <= end_time[0]);
+  }
+
+  template <int dim>
+  void Condition<dim>::mark_slip(std::vector<typename Lattice<dim>::Faces> &faces) const
+  {
+    for (unsigned int list = 0; list < all_nodes.size(); ++list)
+    {
+      // Nodes in a box are held whatever the face.
+      const unsigned int own = list < boundary_ids.size() ? 1u << boundary_ids[list] : (is_slip() ? 0u : ~0u);
+      for (const unsigned int i : all_nodes[list])
+        faces[i] = is_slip() ? faces[i] | own : faces[i] & ~own;
+    }
+  }
+
+  template <int dim>
+  void Boundary<dim>::mark_slip_walls(const double time, const unsigned int n, Grid<dim> &grid)
+  {
+    std::vector<bool> acting;
+    for (const auto &condition : conditions)
+      acting.push_back(condition->acts(time));
+    if (acting == marked)
+      return;
+    marked = acting;
+    // Where something else acts as well a wall does not slip, whatever the order of the list.
+    std::vector<typename Lattice<dim>::Faces> faces(grid.fields.n_owned(), 0);
+    for (const bool is_slip : {true, false})
+      for (unsigned int c = 0; c < conditions.size(); ++c)
+        if (acting[c] && conditions[c]->is_slip() == is_slip)
+          conditions[c]->mark_slip(faces);
+    grid.set_slip_walls(faces, n);
   }
 
   template class Condition<2>;
   template class Condition<3>;
+  template class Boundary<2>;
+  template class Boundary<3>;
 } // namespace Talus

@@ -3,6 +3,8 @@
 #include <talus/core/function.h>
 #include <talus/core/registry.h>
 
+#include <utility>
+
 namespace Talus
 {
   using namespace dealii;
@@ -82,12 +84,19 @@ namespace Talus
                            "slip needs the faces whose normals it acts along. A box of nodes has none.");
       }
 
+      bool is_slip() const override { return true; }
+
     private:
-      void prescribe(const double, Grid<dim> &) override
+      void prescribe(const double, Grid<dim> &grid) override
       {
         for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        {
+          const unsigned int id = this->boundary_ids[f];
           for (const unsigned int i : this->nodes[f])
-            this->set(i, this->boundary_ids[f] / 2, 0.);
+            this->set(i, id / 2, 0.);
+          // Of two conditions on one face the first has it.
+          this->reaction[id / 2] += std::exchange(grid.fields.mirrored_force[id], 0.);
+        }
       }
     };
 

@@ -214,6 +214,7 @@ namespace Talus
         if (cell->is_locally_owned())
           lattice.cell[entry] = cell->active_cell_index();
       }
+    lattice.find_images();
     is_active.assign(fields.n_local(), true);
     collect_active_nodes();
   }
@@ -256,11 +257,27 @@ namespace Talus
   }
 
   template <int dim>
+  void Grid<dim>::set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n)
+  {
+    AssertDimension(faces.size(), fields.n_owned());
+    fields.clear();
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+      fields[i][0] = faces[i];
+    fields.update_copies();
+    std::vector<typename Lattice<dim>::Faces> of_nodes(fields.n_local());
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+      of_nodes[i] = static_cast<typename Lattice<dim>::Faces>(fields[i][0]);
+    fields.clear();
+    lattice.find_slip_faces(of_nodes, n);
+  }
+
+  template <int dim>
   void Grid<dim>::clear()
   {
     for (const unsigned int i : active_nodes)
       std::fill_n(fields[i], fields.stride, 0.);
     fields.clear_copies();
+    fields.mirrored_force.fill(0.);
   }
 
   template <int dim>
@@ -337,10 +354,8 @@ namespace Talus
     const int         n_stencil = static_cast<int>(std::pow(n, dim) + .5);
     for (int entry = 0; entry < static_cast<int>(node.size()); ++entry)
     {
-      Index base;
-      for (unsigned int d = 0; d < dim; ++d)
-        base[d] = first[d] + entry / stride[d] % extent[d];
-      bool is_known = true;
+      const Index base     = table_entry(entry);
+      bool        is_known = true;
       for (int k = 0; k < n_stencil && is_known; ++k)
       {
         Index index;
@@ -356,6 +371,60 @@ namespace Talus
       is_covered[entry] = is_known;
     }
     return is_covered;
+  }
+
+  template <int dim>
+  void Lattice<dim>::find_images()
+  {
+    beyond.assign(node.size(), 0);
+    image.assign(node.size(), missing);
+    for (int entry = 0; entry < static_cast<int>(node.size()); ++entry)
+    {
+      Index index = table_entry(entry);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (index[d] < 0)
+        {
+          beyond[entry] |= 1u << 2 * d;
+          index[d] = -index[d];
+        }
+        else if (index[d] > n_cells[d])
+        {
+          beyond[entry] |= 1u << (2 * d + 1);
+          index[d] = 2 * n_cells[d] - index[d];
+        }
+      if (beyond[entry] != 0 && is_in_table(index) && node[table_index(index)] != missing)
+        image[entry] = table_index(index);
+    }
+  }
+
+  template <int dim>
+  void Lattice<dim>::find_slip_faces(const std::vector<Faces> &of_nodes, const int n)
+  {
+    const int n_stencil = static_cast<int>(std::pow(n, dim) + .5);
+    slip_faces.assign(node.size(), 0);
+    for (int entry = 0; entry < static_cast<int>(node.size()); ++entry)
+    {
+      const Index base      = table_entry(entry);
+      bool        is_inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        is_inside = is_inside && base[d] > 0 && base[d] + n - 1 < n_cells[d];
+      Faces reached = 0, held = 0;
+      for (int k = 0; k < n_stencil && !is_inside; ++k)
+      {
+        Index index;
+        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
+          index[d] = base[d] + rest % n;
+        const unsigned int i = is_in_table(index) ? node[table_index(index)] : missing;
+        if (i == missing)
+          continue;
+        Faces faces = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          faces |= (index[d] == 0) << 2 * d | (index[d] == n_cells[d]) << (2 * d + 1);
+        reached |= faces;
+        held |= faces & ~of_nodes[i];
+      }
+      slip_faces[entry] = reached & ~held;
+    }
   }
 
   template struct Lattice<2>;

@@ -229,6 +229,19 @@ namespace Talus
       }
     };
 
+    /**
+     * Beyond a slip wall the domain goes on as its mirror image: node -k is node k with the opposite velocity along the
+     * normal, in both directions of the transfer. The kernels stay as they are there; at other faces they are corrected
+     * by separable least squares.
+     */
+    template <int dim>
+    class Mirror : public SeparableWeightedLeastSquares<dim>
+    {
+    public:
+      using SeparableWeightedLeastSquares<dim>::SeparableWeightedLeastSquares;
+      bool is_mirror() const override { return true; }
+    };
+
     /** Moving least squares, Fig. 3(c): the derivative of M(x)^{-1} P is taken as well. */
     template <int dim>
     class MovingLeastSquares : public Treatment<dim>
@@ -330,6 +343,8 @@ namespace Talus
       "WLS everywhere", "weighted least squares for all particles: MLS-MPM with TPIC");
     const RegisterDimensions<Treatment, SeparableWeightedLeastSquares> separable(
       "WLS separable", "weighted least squares on each truncated axis alone");
+    const RegisterDimensions<Treatment, Mirror> mirror(
+      "mirror", "nodes beyond a slip wall mirror those before it; 'WLS separable' at other faces");
     const RegisterDimensions<Treatment, MovingLeastSquares> mls("MLS", "moving least squares where nodes are missing");
   } // namespace
 } // namespace Talus

@@ -5,6 +5,7 @@
 
 #include <iomanip>
 #include <iostream>
+#include <limits>
 
 namespace Talus
 {
@@ -25,8 +26,9 @@ namespace Talus
   Simulation<dim>::Simulation(Parameters &parameters, MPI_Comm communicator) :
     ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters),
     memory_at_start(resident_memory().first), step_timing(timing), set_up_section(timing.add("set-up")),
-    upkeep_section(timing.add("upkeep")), output_section(timing.add("output")),
-    comparison_section(timing.add("finite element reference")), grid("/Grid", communicator),
+    upkeep_section(timing.add("upkeep")), smoothing_section(timing.add("smoothing of J")),
+    output_section(timing.add("output")), comparison_section(timing.add("finite element reference")),
+    grid("/Grid", communicator),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -134,10 +136,13 @@ namespace Talus
       body->shape->create(grid.lattice.h);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
     particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
+    smoothing.add_fields(materials, particles);
     particles.create(grid, bodies, materials);
-    transfer->initialize(*kernel, particles);
     for (auto &condition : boundary.conditions)
       condition->attach(grid);
+    boundary.mark_slip_walls(std::numeric_limits<double>::min(), particles.n_stencil_nodes, grid);
+    transfer->initialize(*kernel, particles);
+    smoothing.initialize(materials, *kernel, particles, grid);
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);
     now = survey(model, time, dt);
@@ -313,6 +318,10 @@ namespace Talus
     {
       Timing::Scope scope(timing, upkeep_section);
       upkeep.run(model, now);
+    }
+    {
+      Timing::Scope scope(timing, smoothing_section);
+      smoothing.apply(materials, *kernel, dt, particles, grid);
     }
     now  = explicit_step(model, time, dt, step_timing);
     time = is_last ? end_time : time + dt;

@@ -18,6 +18,7 @@ namespace Talus
     auto &[grid, particles, kernel, transfer, boundary, materials, acceleration, tractions] = model;
     {
       Timing::Scope scope(timing.timing, timing.particle_to_grid);
+      boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);
       grid.clear();
       transfer.particle_to_grid(particles, kernel, acceleration, time, grid);
       tractions.apply(particles, kernel, time, grid);

@@ -277,13 +277,18 @@ namespace Talus
       const Tensor<2, dim> flux = host.moment * transpose(host.F);
       kernel.evaluate(particles, host.p, host.p + 1, &stencil);
       for (unsigned int k = 0; k < stencil.size; ++k)
+      {
+        double numbers[Fields::stride] = {};
         for (unsigned int d = 0; d < dim; ++d)
         {
-          double f = stencil.weight[k] * host.force[d];
+          numbers[Fields::force + d] = stencil.weight[k] * host.force[d];
           for (unsigned int e = 0; e < dim; ++e)
-            f += flux[d][e] * stencil.gradient[e][k];
-          grid.fields[stencil.node[k]][Fields::force + d] += f;
+            numbers[Fields::force + d] += flux[d][e] * stencil.gradient[e][k];
         }
+        grid.fields.count_mirrored(numbers, stencil.beyond[k]);
+        for (unsigned int lane = Fields::force; lane < Fields::force + dim; ++lane)
+          grid.fields[stencil.node[k]][lane] += Fields::mirror(stencil.beyond[k])[lane] * numbers[lane];
+      }
     }
   }
 

@@ -34,11 +34,13 @@ namespace
   }
 
   template <int dim>
-  void compare(const std::string &kernel, const std::string &treatment, const std::string &transfer)
+  void compare(const std::string &kernel, const std::string &treatment, const std::string &transfer,
+               const std::string &more = "", const std::string &conditions = walls_text<dim>("slip"))
   {
-    Setup<dim> plain(full_box<dim>(kernel, treatment, transfer) + walls_text<dim>("slip"));
+    const std::string text = full_box<dim>(kernel, treatment, transfer, more) + conditions;
+    Setup<dim>        plain(text);
     run(plain, true);
-    Setup<dim> batched(full_box<dim>(kernel, treatment, transfer) + walls_text<dim>("slip"));
+    Setup<dim> batched(text);
     run(batched, false);
 
     double error = 0;
@@ -52,7 +54,21 @@ namespace
       }
       raise(error, difference / std::max(largest, 1e-30));
     }
-    check(transfer + ", " + kernel + ", " + treatment, error, 1e-10);
+    const std::string walls = conditions == walls_text<dim>("slip") ? "" : ", mixed walls";
+    check(transfer + ", " + kernel + ", " + treatment + (more.empty() ? "" : ", projection") + walls, error, 1e-10);
+  }
+
+  /** A slip wall, one of which a part is held, and others. */
+  template <int dim>
+  std::string mixed_walls()
+  {
+    const auto faces = [](const std::string &ids) { return set("Boundary ids", ids); };
+    return section("Conditions",
+                   set("Names", "slip, held, friction, fixed") + section("slip", set("Type", "slip") + faces("1, 2")) +
+                     section("held", set("Type", "no-slip") + set("Lower corner", coordinates<dim>({{-9, 0.69, -9}})) +
+                                       set("Upper corner", coordinates<dim>({{-0.15, 0.71, 9}}))) +
+                     section("friction", set("Type", "friction") + faces("3")) +
+                     section("fixed", set("Type", "no-slip") + faces(dim == 2 ? "0" : "0, 5")));
   }
 } // namespace
 
@@ -61,10 +77,27 @@ void batched_and_plain()
 {
   for (const std::string transfer : {"FLIP", "PIC", "blend", "APIC", "TPIC"})
     for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
-      for (const std::string treatment : {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS"})
+      for (const std::string treatment : {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror"})
         if (treatment != "Steffen" || kernel != "uGIMP")
           compare<dim>(kernel, treatment, transfer);
 }
 
+template <int dim>
+void batched_and_plain_slip()
+{
+  const std::string project = set("Slip projection", "true");
+  for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
+  {
+    for (const std::string transfer : {"APIC", "TPIC"})
+      for (const std::string treatment : {"none", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror"})
+        for (const auto &conditions : {walls_text<dim>("slip"), mixed_walls<dim>()})
+          compare<dim>(kernel, treatment, transfer, project, conditions);
+    for (const std::string transfer : {"FLIP", "APIC"})
+      compare<dim>(kernel, "mirror", transfer, "", mixed_walls<dim>());
+  }
+}
+
 template void batched_and_plain<2>();
 template void batched_and_plain<3>();
+template void batched_and_plain_slip<2>();
+template void batched_and_plain_slip<3>();

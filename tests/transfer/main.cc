@@ -13,6 +13,14 @@ DECLARE(flip_after_condition)
 DECLARE(motion)
 DECLARE(nodal_force)
 DECLARE(batched_and_plain)
+DECLARE(batched_and_plain_slip)
+DECLARE(wall_shear)
+DECLARE(slip_conservation)
+DECLARE(projection_definition)
+DECLARE(projection_elsewhere)
+DECLARE(mirror_and_whole)
+DECLARE(mirror_reaction)
+DECLARE(smoothing)
 DECLARE(traction_sums)
 DECLARE(traction_work)
 DECLARE(traction_errors)
@@ -40,6 +48,22 @@ int main(int argc, char **argv)
                     {"nodal force 3D", nodal_force<3>},
                     {"batched and plain 2D", batched_and_plain<2>},
                     {"batched and plain 3D", batched_and_plain<3>},
+                    {"batched and plain, slip 2D", batched_and_plain_slip<2>},
+                    {"batched and plain, slip 3D", batched_and_plain_slip<3>},
+                    {"wall shear 2D", wall_shear<2>},
+                    {"wall shear 3D", wall_shear<3>},
+                    {"slip: conservation 2D", slip_conservation<2>},
+                    {"slip: conservation 3D", slip_conservation<3>},
+                    {"slip projection: definition 2D", projection_definition<2>},
+                    {"slip projection: definition 3D", projection_definition<3>},
+                    {"slip projection: elsewhere 2D", projection_elsewhere<2>},
+                    {"slip projection: elsewhere 3D", projection_elsewhere<3>},
+                    {"mirror and whole 2D", mirror_and_whole<2>},
+                    {"mirror and whole 3D", mirror_and_whole<3>},
+                    {"mirror: reaction 2D", mirror_reaction<2>},
+                    {"mirror: reaction 3D", mirror_reaction<3>},
+                    {"smoothing of J 2D", smoothing<2>},
+                    {"smoothing of J 3D", smoothing<3>},
                     {"traction sums 2D", traction_sums<2>},
                     {"traction sums 3D", traction_sums<3>},
                     {"traction work 2D", traction_work<2>},

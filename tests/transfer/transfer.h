@@ -40,10 +40,11 @@ namespace Test
 
   /** Particles with jitter in all cells of a small box. */
   template <int dim>
-  std::string full_box(const std::string &kernel, const std::string &treatment, const std::string &transfer)
+  std::string full_box(const std::string &kernel, const std::string &treatment, const std::string &transfer,
+                       const std::string &more = "")
   {
     const std::array<int, 3> cells = {{dim == 2 ? 6 : 4, dim == 2 ? 5 : 4, 4}};
-    return skewed_grid<dim>(cells) + kernel_text(kernel, treatment) + transfer_text(transfer) +
+    return skewed_grid<dim>(cells) + kernel_text(kernel, treatment) + transfer_text(transfer, more) +
            box_body<dim>({{-0.3, 0.7, 0.2}}, {{-0.3 + 0.1 * cells[0], 0.7 + 0.08 * cells[1], 0.2 + 0.125 * cells[2]}},
                          0.5);
   }

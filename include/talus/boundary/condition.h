@@ -26,6 +26,15 @@ namespace Talus
      */
     void apply(const double time, const double dt, Grid<dim> &grid, LocalDamping<dim> &damping);
 
+    /** Whether it acts in a step that ends at `time`. */
+    bool acts(const double time) const;
+
+    /** True when it leaves the nodes of its faces free to slide along them. */
+    virtual bool is_slip() const { return false; }
+
+    /** Enters or takes away the faces on which its nodes slip, for each owned node. */
+    void mark_slip(std::vector<typename Lattice<dim>::Faces> &faces) const;
+
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
     /** Force of the body on the condition, sum m (v_trial - v) / dt, of this rank's nodes in the last step [force]. */
@@ -81,8 +90,17 @@ namespace Talus
         condition->select(grid);
     }
 
+    /**
+     * Tells the grid which nodes are of slip walls, and of nothing else, in a step that ends at `time`; stencils have n
+     * nodes per axis. Collective; costs nothing unless a condition begins or ends.
+     */
+    void mark_slip_walls(const double time, const unsigned int n, Grid<dim> &grid);
+
     std::vector<std::string>                     names;
     std::vector<std::unique_ptr<Condition<dim>>> conditions;
     LocalDamping<dim>                            damping;
+
+  private:
+    std::vector<bool> marked; // which conditions acted when the slip walls were marked
   };
 } // namespace Talus

@@ -46,6 +46,12 @@ namespace Talus
      */
     void activate(const std::vector<char> &first, const unsigned int n);
 
+    /**
+     * Tells the lattice where stencils of n nodes per axis meet slip walls; `faces` has for each owned node those on
+     * which it slips. Collective.
+     */
+    void set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n);
+
     /** Owned nodes that are active, in ascending order; at first all. */
     std::vector<unsigned int> active_nodes;
     std::vector<bool>         is_active; // of each local node

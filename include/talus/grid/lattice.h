@@ -20,6 +20,7 @@ namespace Talus
   struct Lattice
   {
     using Index = std::array<int, dim>;
+    using Faces = unsigned char; // a set of faces of the box: bit 2 d is the lower, 2 d + 1 the upper one of axis d
 
     static constexpr unsigned int missing = static_cast<unsigned int>(-1);
     static constexpr int          padding = 3;
@@ -33,6 +34,10 @@ namespace Talus
     std::vector<unsigned int> node;  // local index of the node at a lattice index
     std::vector<unsigned int> cell;  // active cell index of the *owned* cell there
     std::vector<unsigned int> owner; // rank of the cell there, if this rank knows it
+
+    std::vector<Faces> slip_faces;   // faces that a stencil reaches which begins there, if all its nodes on them slip
+    std::vector<Faces> beyond;       // faces beyond which the index lies
+    std::vector<unsigned int> image; // where there are any: the place of its mirror image in them, if a node is there
 
     /** Lattice coordinate of `x` along axis `d`: integer at nodes. */
     double coordinate(const double x, const unsigned int d) const { return (x - origin[d]) * inverse_h[d]; }
@@ -101,6 +106,22 @@ namespace Talus
       node.assign(size, missing);
       cell.assign(size, missing);
       owner.assign(size, missing);
+      slip_faces.assign(size, 0);
+    }
+
+    /** Sets the mirror images of what lies beyond the box. */
+    void find_images();
+
+    /** Sets `slip_faces` of stencils of n nodes per axis, from the faces on which each local node slips. */
+    void find_slip_faces(const std::vector<Faces> &of_nodes, const int n);
+
+    /** The lattice index of an entry of the tables. */
+    Index table_entry(const int entry) const
+    {
+      Index index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = first[d] + entry / stride[d] % extent[d];
+      return index;
     }
 
     /**

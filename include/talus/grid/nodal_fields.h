@@ -2,6 +2,7 @@
 
 #include <deal.II/base/partitioner.h>
 
+#include <array>
 #include <cstdlib>
 #include <memory>
 
@@ -44,6 +45,23 @@ namespace Talus
     void clear();
     void clear_copies();
 
+    /**
+     * Factors of a node's numbers where it stands for its mirror image in some faces of the box, bit 2 d or 2 d + 1
+     * those of axis d: -1 for the components along their normals.
+     */
+    static const double *mirror(const unsigned int faces) { return mirror_factors[faces].data(); }
+
+    /** Counts the force among a node's numbers that are about to be mirrored; its image gets the opposite of it. */
+    void count_mirrored(const double *numbers, const unsigned int faces)
+    {
+      for (unsigned int f = 0; f < 2 * dim; ++f)
+        if (faces >> f & 1)
+          mirrored_force[f] += 2 * numbers[force + f / 2];
+    }
+
+    /** What each face bears of the last transfer to the nodes, besides its nodes: of this rank's particles [force]. */
+    std::array<double, 2 * dim> mirrored_force{};
+
     /** Adds what this rank has summed into copies to their owners, and zeros the copies. Collective. */
     void add_copies_to_owners();
 
@@ -60,6 +78,10 @@ namespace Talus
     const double *at_place(const std::size_t place) const { return values + stride * place; }
 
   private:
+    using MirrorFactors = std::array<std::array<double, stride>, 1u << (2 * dim)>;
+    static MirrorFactors       make_mirror_factors();
+    static const MirrorFactors mirror_factors;
+
     /** What one rank sends to another: these nodes, in this order, through its part of a buffer. */
     struct Message
     {

@@ -22,8 +22,23 @@ namespace Talus
     Number weight[dim][n], derivative[dim][n], offset[dim][n];
 
     // Where not a product.
-    Number value[n_nodes], gradient[dim][n_nodes];
+    Number                value[n_nodes], gradient[dim][n_nodes];
+    typename Number::Mask is_at_slip_wall[dim]; // nodes are missing along this axis, beyond a slip wall
+    bool                  has_images;           // nodes beyond slip walls have weight: see Treatment::is_mirror()
   };
+
+  /** Lanes whose stencil meets a face of the domain as a slip wall. */
+  template <int dim, unsigned int n>
+  typename LatticeBatch<dim, n>::Number::Mask meets_slip_wall(const Lattice<dim>         &lattice,
+                                                              const LatticeBatch<dim, n> &stencil,
+                                                              const unsigned int          face)
+  {
+    using Number = typename LatticeBatch<dim, n>::Number;
+    Number is_slip;
+    for (unsigned int l = 0; l < Number::n_lanes; ++l)
+      is_slip.set(l, lattice.slip_faces[stencil.first_node[l]] >> face & 1);
+    return is_slip > Number(0.);
+  }
 
   /** Fills the lists from the factors. */
   template <int dim, unsigned int n>
@@ -67,18 +82,29 @@ namespace Talus
     factors.n              = n;
     factors.boundary_scale = Function::boundary_scale;
     // Round-off must not make a node at the very end of the support count as missing.
-    const double reach = function.support() - 1e-12;
+    const double reach     = function.support() - 1e-12;
+    const bool   is_mirror = treatment.is_mirror();
+    stencil.has_images     = is_mirror;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      factors.first[d]        = first[d];
-      factors.last[d]         = lattice.n_cells[d];
-      const Number coordinate = first[d] - stencil.offset[d][0] * lattice.inverse_h[d];
-      factors.is_truncated[d] =
-        (coordinate + 1. < Number(reach)) | (lattice.n_cells[d] + 1. - coordinate < Number(reach));
+      factors.first[d]          = first[d];
+      factors.last[d]           = lattice.n_cells[d];
+      const Number coordinate   = first[d] - stencil.offset[d][0] * lattice.inverse_h[d];
+      const auto   misses_lower = coordinate + 1. < Number(reach);
+      const auto   misses_upper = lattice.n_cells[d] + 1. - coordinate < Number(reach);
+      const auto   slip_lower   = meets_slip_wall(lattice, stencil, 2 * d);
+      const auto   slip_upper   = meets_slip_wall(lattice, stencil, 2 * d + 1);
+
+      stencil.is_at_slip_wall[d] = (misses_lower & slip_lower) | (misses_upper & slip_upper);
+      factors.is_truncated[d]    = misses_lower | misses_upper;
+      if (is_mirror)
+        factors.is_truncated[d] = (misses_lower & !slip_lower) | (misses_upper & !slip_upper);
       for (unsigned int k = 0; k < n; ++k)
       {
-        const Number index       = first[d] + static_cast<double>(k);
-        const auto   is_there    = (index >= Number(0.)) & (index <= Number(factors.last[d]));
+        const Number index    = first[d] + static_cast<double>(k);
+        auto         is_there = (index >= Number(0.)) & (index <= Number(factors.last[d]));
+        if (is_mirror)
+          is_there = ((index >= Number(0.)) | slip_lower) & ((index <= Number(factors.last[d])) | slip_upper);
         factors.weight[d][k]     = select(is_there, stencil.weight[d][k], Number(0.));
         factors.derivative[d][k] = select(is_there, stencil.derivative[d][k], Number(0.));
         factors.offset[d][k]     = stencil.offset[d][k];

@@ -44,11 +44,17 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
         {
           base[d] = evaluate_axis(x[d][p], d, axes[d]);
-          is_truncated |= axes[d].is_truncated;
           is_at_boundary |= axes[d].has_lower_boundary || axes[d].has_upper_boundary;
+          stencil.is_at_slip_wall[d] = false;
         }
         if (is_at_boundary)
         {
+          const unsigned int slip = this->lattice->slip_faces[this->lattice->table_index(base)];
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            meet_slip_walls(slip >> 2 * d & 1, slip >> (2 * d + 1) & 1, axes[d], stencil.is_at_slip_wall[d]);
+            is_truncated |= axes[d].is_truncated;
+          }
           this->treatment->correct_axes(axes);
           multiply<false>(axes, base, stencil);
         }
@@ -85,14 +91,29 @@ namespace Talus
       axis.has_upper_boundary = base + static_cast<int>(Function::n) > last;
       axis.boundary_scale     = Function::boundary_scale;
 
-      axis.is_truncated = false;
+      axis.misses_lower = axis.misses_upper = false;
       if (axis.has_lower_boundary || axis.has_upper_boundary)
       {
         // Round-off must not make a node at the very end of the support count as missing.
         const double reach = function.support() - 1e-12;
-        axis.is_truncated  = coordinate + 1 < reach || last + 1 - coordinate < reach;
+        axis.misses_lower  = coordinate + 1 < reach;
+        axis.misses_upper  = last + 1 - coordinate < reach;
       }
+      axis.is_truncated = axis.misses_lower || axis.misses_upper;
       return base;
+    }
+
+    /** Lets an axis go on beyond slip walls where the treatment mirrors it. */
+    void meet_slip_walls(const bool lower, const bool upper, Axis &axis, bool &is_at_slip_wall) const
+    {
+      is_at_slip_wall = (axis.misses_lower && lower) || (axis.misses_upper && upper);
+      if (!this->treatment->is_mirror())
+        return;
+      if (lower)
+        axis.begin = 0;
+      if (upper)
+        axis.end = Function::n;
+      axis.is_truncated = (axis.misses_lower && !lower) || (axis.misses_upper && !upper);
     }
 
     /** The product over the axes; a complete stencil has loops of fixed length. */
@@ -115,9 +136,18 @@ namespace Talus
           const double dy_wz = y.derivative[b] * wz;
           const double wy_dz = dim == 3 ? y.weight[b] * z.derivative[c] : 0.;
           const auto  *row   = nodes + b * stride[1] + (dim == 3 ? c * stride[dim - 1] : 0);
-          for (unsigned int a = begin(0); a < end(0); ++a, ++i)
+          for (unsigned int a = begin(0); a < end(0); ++a)
           {
-            stencil.node[i]        = row[a];
+            stencil.node[i]   = row[a];
+            stencil.beyond[i] = 0;
+            if (!is_complete && row[a] == Lattice<dim>::missing)
+            {
+              const auto place = row + a - this->lattice->node.data();
+              if (this->lattice->image[place] == Lattice<dim>::missing)
+                continue; // at the very end of the support
+              stencil.node[i]   = this->lattice->node[this->lattice->image[place]];
+              stencil.beyond[i] = this->lattice->beyond[place];
+            }
             stencil.weight[i]      = x.weight[a] * wyz;
             stencil.gradient[0][i] = x.derivative[a] * wyz;
             stencil.gradient[1][i] = x.weight[a] * dy_wz;
@@ -128,6 +158,7 @@ namespace Talus
               stencil.gradient[2][i] = x.weight[a] * wy_dz;
               stencil.offset[2][i]   = z.offset[c];
             }
+            ++i;
           }
         }
       stencil.size = i;

@@ -17,5 +17,8 @@ namespace Talus
     double       weight[capacity];
     double       offset[dim][capacity];
     double       gradient[dim][capacity];
+
+    unsigned char beyond[capacity];     // faces of the box in which the node stands for its mirror image; mostly none
+    bool          is_at_slip_wall[dim]; // nodes are missing along this axis, beyond a slip wall
   };
 } // namespace Talus

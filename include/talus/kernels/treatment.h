@@ -18,7 +18,9 @@ namespace Talus
     double       weight[capacity];     // [1]
     double       derivative[capacity]; // [1/length]
     double       offset[capacity];     // x_i - x_p [length]
-    bool         is_truncated;         // a node beyond the domain has non-zero weight
+    bool         is_truncated;         // a node beyond the domain has non-zero weight and is missing
+    bool         misses_lower;         // a node beyond the domain's lower face has non-zero weight
+    bool         misses_upper;         // a node beyond its upper face has
     bool         has_lower_boundary;   // node `begin` lies on the domain's lower face
     bool         has_upper_boundary;   // node `end - 1` lies on its upper face
     double       boundary_scale;       // Steffen's factor of the kernel at the boundary node
@@ -71,6 +73,9 @@ namespace Talus
 
     /** True when complete stencils go through correct_stencil() as well. */
     virtual bool is_everywhere() const { return false; }
+
+    /** True when nodes beyond a slip wall are not missing, but the mirror images of others. */
+    virtual bool is_mirror() const { return false; }
 
     /** True when the treatment needs boundary_scale, which not every kernel has. */
     virtual bool needs_boundary_scale() const { return false; }

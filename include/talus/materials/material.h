@@ -65,6 +65,12 @@ namespace Talus
     /** Viscosity over density [length^2/time], which limits the step size as well; 0: it has none. */
     virtual double kinematic_viscosity() const { return 0; }
 
+    /**
+     * How fast differences of J between neighbours are smoothed [length/time]; 0: not at all. Only for laws without
+     * memory, whose update() may be called again.
+     */
+    virtual double smoothing_speed() const { return 0; }
+
     double density = 1000; // [mass/volume]
 
     void parse_parameters(dealii::ParameterHandler &prm) override;

@@ -26,11 +26,13 @@ namespace Talus
     double rest_stress_ratio() const override { return 1; }
     double initial_density(const double pressure) const override;
     double kinematic_viscosity() const override { return viscosity / density; }
+    double smoothing_speed() const override { return smoothing * sound_speed; }
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
   private:
     double viscosity   = 1e-3; // mu [stress time]
     double sound_speed = 50;   // c [length/time]
+    double smoothing   = 0;    // of J [1]
   };
 } // namespace Talus

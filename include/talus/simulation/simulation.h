@@ -9,6 +9,7 @@
 #include <talus/postprocess/statistics.h>
 #include <talus/steppers/explicit_step.h>
 #include <talus/steppers/upkeep.h>
+#include <talus/transfer/volume_smoothing.h>
 
 #include <fstream>
 #include <sstream>
@@ -48,7 +49,7 @@ namespace Talus
     const double       memory_at_start; // resident memory of this rank, before anything is built [byte]
     Timing             timing;
     const StepTiming   step_timing;
-    const unsigned int set_up_section, upkeep_section, output_section, comparison_section;
+    const unsigned int set_up_section, upkeep_section, smoothing_section, output_section, comparison_section;
     std::ofstream      log;
 
     Grid<dim>                               grid;
@@ -60,6 +61,7 @@ namespace Talus
     Boundary<dim>                           boundary;
     ParsedVector<dim>                       acceleration;
     Tractions<dim>                          tractions;
+    VolumeSmoothing<dim>                    smoothing;
     Model<dim>                              model;
 
     Output<dim>                      output;

@@ -15,7 +15,13 @@ namespace Talus
   class AffineTransfer : public Transfer<dim>
   {
   public:
-    explicit AffineTransfer(const std::string &section) : Transfer<dim>(section) { scheme.add_parameters(*this); }
+    explicit AffineTransfer(const std::string &section) : Transfer<dim>(section)
+    {
+      scheme.add_parameters(*this);
+      if (Scheme<dim>::is_affine)
+        this->add_parameter("Slip projection", scheme.projects_slip,
+                            "Particles whose kernel a slip wall truncates scatter no d v_t / d n: quiet floors.");
+    }
 
     void add_fields(WorkingSet<dim> &particles) override { scheme.add_fields(particles); }
 

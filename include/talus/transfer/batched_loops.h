@@ -159,6 +159,8 @@ namespace Talus
       dealii::Tensor<2, dim, Number> C;
       if constexpr (is_affine)
         C = scheme.affine(arrays, batch, second_moment(stencil), h);
+      if (is_affine && !stencil.is_product && scheme.projects_slip)
+        C = without_wall_shear(C, stencil.is_at_slip_wall);
       for (unsigned int e = 0; e < dim; ++e)
       {
         rows[Fields::mass] = 0.;
@@ -283,7 +285,10 @@ namespace Talus
       return l;
     }
 
-    /** Calls `body(i, k, place)` for the existing nodes of a stencil that is a list; k is where along each axis. */
+    /**
+     * Calls `body(i, k, place, beyond)` for the existing nodes of a stencil that is a list; k is where along each axis.
+     * The node at the place stands for its mirror image in the faces `beyond`, if there are any.
+     */
     template <class Body>
     [[gnu::always_inline]] static void for_each_node(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                                      const unsigned int l, const Body &body)
@@ -291,22 +296,33 @@ namespace Talus
       for (unsigned int i = 0; i < stencil.n_nodes; ++i)
       {
         const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
-        unsigned int       place = stencil.first_node[l];
+        unsigned int       place = stencil.first_node[l], beyond = 0;
         for (unsigned int d = 0; d < dim; ++d)
           place += k[d] * lattice.stride[d];
-        if (lattice.node[place] != Lattice<dim>::missing)
-          body(i, k, place);
+        if (lattice.node[place] == Lattice<dim>::missing)
+        {
+          if (!stencil.has_images || lattice.image[place] == Lattice<dim>::missing)
+            continue;
+          beyond = lattice.beyond[place];
+          place  = lattice.image[place];
+        }
+        body(i, k, place, beyond);
       }
     }
 
     static void scatter_list(const Vectors &add, const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                              const unsigned int l, Fields &fields)
     {
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int place) {
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
         const double phi   = stencil.value[i].data()[l];
         Node         value = phi * add.constant[l];
         for (unsigned int d = 0; d < dim; ++d)
           value += blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
+        if (beyond != 0)
+        {
+          fields.count_mirrored(value.data(), beyond);
+          value *= Node::load(Fields::mirror(beyond));
+        }
         add_to(fields.at_place(place), value);
       });
     }
@@ -452,10 +468,12 @@ namespace Talus
                             const Fields &fields, Sums &sums)
     {
       Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
-      for_each_node(lattice, stencil, l, [&](const unsigned int i, const unsigned int *k, const unsigned int place) {
-        const double *values = fields.at_place(place);
-        const Motion  v      = Motion::load(values + Fields::velocity);
-        const double  phi    = stencil.value[i].data()[l];
+      for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
+        const double *values = fields.at_place(place), *sign = Fields::mirror(beyond);
+        Motion        v   = Motion::load(values + Fields::velocity);
+        const double  phi = stencil.value[i].data()[l];
+        if (beyond != 0)
+          v *= Motion::load(sign + Fields::velocity);
         value += phi * v;
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -464,7 +482,7 @@ namespace Talus
             moment[d] += (phi * stencil.offset[d][k[d]].data()[l]) * v;
         }
         if constexpr (Sums::has_own_increment)
-          increment += phi * Motion::load(values + Fields::increment);
+          increment += phi * Motion::load(sign + Fields::increment) * Motion::load(values + Fields::increment);
       });
       sums.value[l] = value;
       for (unsigned int d = 0; d < dim; ++d)

@@ -108,7 +108,9 @@ namespace Talus
         dealii::SymmetricTensor<2, dim> D;
         if constexpr (Scheme::needs_D)
           D = second_moment(stencil);
-        const auto C = scheme.affine(arrays, SingleBatch{p}, D, h);
+        auto C = scheme.affine(arrays, SingleBatch{p}, D, h);
+        if (scheme.projects_slip)
+          C = without_wall_shear(C, stencil.is_at_slip_wall);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
             add.linear[e][Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
@@ -120,7 +122,7 @@ namespace Talus
     {
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        double *node = fields[stencil.node[k]];
+        double *node = fields[stencil.node[k]], sum[Fields::stride];
         for (unsigned int lane = 0; lane < Fields::stride; ++lane)
         {
           double value = add.constant[lane], flux = 0;
@@ -129,8 +131,12 @@ namespace Talus
             value += add.linear[e][lane] * stencil.offset[e][k];
             flux += add.flux[e][lane] * stencil.gradient[e][k];
           }
-          node[lane] += stencil.weight[k] * value + flux;
+          sum[lane] = stencil.weight[k] * value + flux;
         }
+        const unsigned int beyond = stencil.beyond[k];
+        fields.count_mirrored(sum, beyond);
+        for (unsigned int lane = 0; lane < Fields::stride; ++lane)
+          node[lane] += Fields::mirror(beyond)[lane] * sum[lane];
       }
     }
 
@@ -139,12 +145,12 @@ namespace Talus
       Gathered<dim, double> sum;
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        const double *node = fields[stencil.node[k]];
+        const double *node = fields[stencil.node[k]], *sign = Fields::mirror(stencil.beyond[k]);
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double v = node[Fields::velocity + d], phi = stencil.weight[k];
+          const double v = sign[Fields::velocity + d] * node[Fields::velocity + d], phi = stencil.weight[k];
           sum.velocity[d] += phi * v;
-          sum.increment[d] += phi * node[Fields::increment + d];
+          sum.increment[d] += phi * sign[Fields::increment + d] * node[Fields::increment + d];
           for (unsigned int e = 0; e < dim; ++e)
           {
             sum.grad_v[d][e] += stencil.gradient[e][k] * v;

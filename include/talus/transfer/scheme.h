@@ -38,6 +38,21 @@ namespace Talus
   };
 
   /**
+   * C - (I - n n^T) C n n^T for the normals n of the axes where `is_at_slip_wall`. Next to a slip wall the correction
+   * of a kernel makes d v_t / d n a difference of the last two nodes, which grows when it is handed back to them:
+   * doc/quiet_floor.md. Momentum does not change.
+   */
+  template <int dim, typename Number, class Mask>
+  dealii::Tensor<2, dim, Number> without_wall_shear(dealii::Tensor<2, dim, Number> C, const Mask &is_at_slip_wall)
+  {
+    for (unsigned int n = 0; n < dim; ++n)
+      for (unsigned int t = 0; t < dim; ++t)
+        if (t != n)
+          C[t][n] = select(is_at_slip_wall[n], Number(0.), C[t][n]);
+    return C;
+  }
+
+  /**
    * How the schemes that scatter v_p + C_p (x_i - x_p), Eqs. (15)-(19), and gather
    * once differ. What is here holds unless a scheme says otherwise; its functions
    * are templates on the batch, one particle or several.
@@ -49,6 +64,9 @@ namespace Talus
     static constexpr bool needs_D           = false; // affine() reads D, Eq. (18)
     static constexpr bool gathers_B         = false;
     static constexpr bool gathers_increment = false;
+
+    /** Leaves d v_t / d n out of C_p of particles at slip walls; for affine schemes: see without_wall_shear(). */
+    bool projects_slip = false;
 
     void                   add_parameters(dealii::ParameterAcceptor &) {}
     void                   add_fields(WorkingSet<dim> &) {}
