@@ -28,7 +28,7 @@ MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic
 TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
          "quadratic-tpic-everywhere-neo"]
-FILES = {2: ("prm/elastic_block.prm", 100), 3: ("prm/elastic_block_3d.prm", 15)}
+FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 
 
 @dataclasses.dataclass
@@ -131,7 +131,7 @@ def parse_arguments():
     parser.add_argument("--rows", help="rows of the table, with commas; KERNEL-TRANSFER-TREATMENT-MATERIAL; all: "
                         + ", ".join(TABLE))
     parser.add_argument("--dim", type=int, choices=(2, 3), help="this dimension of the table alone")
-    parser.add_argument("--steps", type=int, default=0, metavar="N", help="N (100, in 3D 15)")
+    parser.add_argument("--steps", type=int, default=0, metavar="N", help="N (200, in 3D 40)")
     parser.add_argument("--repeats", type=int, default=5, help="repeats, of which the median counts (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (%(default)s)")
     parser.add_argument("--csv", action="store_true",
