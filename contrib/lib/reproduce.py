@@ -46,8 +46,8 @@ def reproduce(name, arguments):
     benchmark = load(name)
     directory = pathlib.Path(arguments.output or runs.ROOT / "reproduce" / name)
     directory.mkdir(parents=True, exist_ok=True)
-    for old in ("table.csv", "figure.png"):
-        (directory / old).unlink(missing_ok=True)
+    for old in (directory / "table.csv", *directory.glob("*.png")):
+        old.unlink(missing_ok=True)
     planned = benchmark.runs()  # none where a benchmark only evaluates formulas
     results = runs.execute_all(planned, directory / "runs", arguments.jobs, arguments.ranks) if planned else []
     rows = benchmark.table(results)
@@ -57,8 +57,9 @@ def reproduce(name, arguments):
     for figure in figures:
         print(figure.line())
     benchmark.draw(results, directory / "figure.png")
-    if arguments.doc and (directory / "figure.png").exists():
-        write_rendition(directory / "figure.png", FIGURES / f"{name}.png")
+    if arguments.doc:
+        for source in directory.glob("*.png"):  # figure.png, and what a benchmark has drawn beside it
+            write_rendition(source, FIGURES / (f"{name}.png" if source.stem == "figure" else source.name))
     failed = sum(not figure.passes for figure in figures)
     print(f"\n{len(figures) - failed} of {len(figures)} acceptance figures pass. "
           f"See {', '.join(str(path) for path in sorted(directory.glob('*.*')))}.")
@@ -72,7 +73,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=runs.default_jobs(), help="runs at a time (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run (%(default)s)")
     parser.add_argument("--output", help="directory for the results (reproduce/NAME)")
-    parser.add_argument("--doc", action="store_true", help="also write the figure, reduced, to doc/figures/NAME.png")
+    parser.add_argument("--doc", action="store_true", help="also write the figures, reduced, to doc/figures")
     arguments = parser.parse_args()
     if arguments.list:
         for name in names():

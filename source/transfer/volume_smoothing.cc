@@ -3,6 +3,7 @@
 #include <talus/particles/batch_access.h>
 #include <talus/transfer/volume_smoothing.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Talus
@@ -111,19 +112,15 @@ namespace Talus
         for_each_batch(range.begin, range.end, [&](const auto batch) {
           evaluate_batch(function, lattice, treatment, load_vector<dim>(batch, position), stencil);
           if (stencil.is_product)
-            for (unsigned int i = 0; i < n_nodes; ++i)
+          {
+            LatticeFactors<dim> factors;
+            for (unsigned int d = 0; d < dim; ++d)
             {
-              stencil.value[i] = stencil.weight[0][place(i, 0)];
-              for (unsigned int d = 1; d < dim; ++d)
-                stencil.value[i] *= stencil.weight[d][place(i, d)];
-              for (unsigned int d = 0; d < dim; ++d)
-              {
-                stencil.gradient[d][i] = stencil.derivative[d][place(i, d)];
-                for (unsigned int e = 0; e < dim; ++e)
-                  if (e != d)
-                    stencil.gradient[d][i] *= stencil.weight[e][place(i, e)];
-              }
+              std::copy_n(stencil.weight[d], n, factors.weight[d]);
+              std::copy_n(stencil.derivative[d], n, factors.derivative[d]);
             }
+            multiply(factors, stencil);
+          }
           body(batch, stencil);
         });
       }

@@ -115,6 +115,9 @@ namespace Talus
     /** Sets `slip_faces` of stencils of n nodes per axis, from the faces on which each local node slips. */
     void find_slip_faces(const std::vector<Faces> &of_nodes, const int n);
 
+    /** The node at a lattice index, or `missing`; any index. */
+    unsigned int node_at(const Index &index) const;
+
     /** The lattice index of an entry of the tables. */
     Index table_entry(const int entry) const
     {
