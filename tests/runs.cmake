@@ -4,7 +4,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 # talus_add_run(NAME RANKS COMMAND...): a test that keeps `ranks` cores busy.
 function(talus_add_run name ranks)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN})
-  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 120)
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 120
+    ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
 endfunction()
 
 set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)

@@ -63,6 +63,15 @@ def slope(result):
     return late(result, 0.9) - late(result, 0.5)
 
 
+def by_internal_forces(result):
+    """Mean of the internal forces of the footing's nodes over the mean reaction, t > .9 T."""
+    if result.status != 0:
+        return math.nan
+    columns = result.statistics()
+    end = columns["time"] > 0.9 * columns["time"][-1]
+    return np.mean(columns["nodal force footing y"][end]) / np.mean(columns["reaction footing y"][end])
+
+
 def area_of_half(result):
     """Area that holds half of the deviatoric strain [m^2]."""
     if result.status != 0 or result.run.label["transfer"] == "FEM":
@@ -89,6 +98,9 @@ def figures(results):
         values.append(report.Figure(f"{transfer}, corrected, slope", slope(here(transfer, "WLS")), upper=0.10))
         values.append(report.Figure(f"{transfer}, corrected, area of half the strain",
                                     area_of_half(here(transfer, "WLS")), 0.53, 0.56, "m2"))
+    for transfer in ("FLIP", "APIC", "TPIC"):
+        values.append(report.near(f"{transfer}, corrected, force by internal forces over reaction",
+                                  by_internal_forces(here(transfer, "WLS")), 1, 2e-3))
     corrected = [load(transfer, "WLS") for transfer in ("FLIP", "APIC", "TPIC")]
     values.append(report.Figure("FLIP, APIC, TPIC, corrected, spread", max(corrected) - min(corrected), upper=0.03))
     values.append(report.near("PIC, corrected, Q/(cB)", load("PIC", "WLS"), 5.192, 0.03))

@@ -76,6 +76,7 @@ namespace Talus
     this->grid    = &grid;
     this->damping = &damping;
     reaction      = 0;
+    nodal_force   = 0;
     work          = 0;
     if (acts(time))
       prescribe(time, grid);

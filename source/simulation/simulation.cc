@@ -176,6 +176,9 @@ namespace Talus
     for (const auto &name : boundary.names)
       for (unsigned int d = 0; d < dim; ++d)
         columns.push_back({"reaction " + name + " " + "xyz"[d], "force"});
+    for (const auto &name : boundary.names)
+      for (unsigned int d = 0; d < dim; ++d)
+        columns.push_back({"nodal force " + name + " " + "xyz"[d], "force"});
     for (const auto &name : tractions.names)
       for (unsigned int d = 0; d < dim; ++d)
         columns.push_back({"traction " + name + " " + "xyz"[d], "force"});
@@ -217,6 +220,8 @@ namespace Talus
       row.push_back(lost_momentum[d]);
     for (const auto &reaction : now.reactions)
       row.insert(row.end(), reaction.begin_raw(), reaction.end_raw());
+    for (const auto &force : now.nodal_forces)
+      row.insert(row.end(), force.begin_raw(), force.end_raw());
     for (const auto &force : now.traction_forces)
       row.insert(row.end(), force.begin_raw(), force.end_raw());
     statistics.write_row(row);

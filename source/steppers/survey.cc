@@ -125,6 +125,7 @@ namespace Talus
     for (const auto &condition : model.boundary.conditions)
     {
       sums.insert(sums.end(), condition->reaction.begin_raw(), condition->reaction.end_raw());
+      sums.insert(sums.end(), condition->nodal_force.begin_raw(), condition->nodal_force.end_raw());
       sums.push_back(condition->work);
     }
     sums.push_back(-model.boundary.damping.work);
@@ -155,6 +156,7 @@ namespace Talus
     for (unsigned int c = 0; c < model.boundary.conditions.size(); ++c)
     {
       result.reactions.push_back(next_vector());
+      result.nodal_forces.push_back(next_vector());
       result.works.push_back(*next++);
     }
     result.damping_energy = *next++;

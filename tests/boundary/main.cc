@@ -47,7 +47,7 @@ namespace
     const double time = 0.7, dt = 0.1;
     Setup<dim>   setup(section("Grid", set("Spacing", "0.25")) + conditions("one", section("one", text)));
     move(setup, time, dt);
-    Tensor<1, dim> reaction;
+    Tensor<1, dim> reaction, nodal_force;
     double         error = 0, work = 0;
     for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -57,6 +57,7 @@ namespace
         {
           const double impulse = mass(setup, i) * (trial(setup, i, d) - v);
           reaction[d] += impulse / dt;
+          nodal_force[d] += mass(setup, i) * 0.25 / dt;
           work -= impulse * v;
         }
         raise(error, setup.grid.fields[i][NodalFields<dim>::velocity + d] - v);
@@ -65,6 +66,7 @@ namespace
     const auto &condition = *setup.boundary.conditions[0];
     check(name + ": velocity", error, 1e-14);
     check(name + ": reaction", (condition.reaction - reaction).norm(), 1e-11);
+    check(name + ": nodal force", (condition.nodal_force - nodal_force).norm(), 1e-11);
     check(name + ": work", condition.work - work, 1e-12);
   }
 

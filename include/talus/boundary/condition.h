@@ -39,6 +39,9 @@ namespace Talus
 
     /** Force of the body on the condition, sum m (v_trial - v) / dt, of this rank's nodes in the last step [force]. */
     dealii::Tensor<1, dim> reaction;
+    /** Nodal forces, of stress, body force and tractions, that it found on what it set in the last step [force]: the
+     * reaction but for what the nodes accelerate. */
+    dealii::Tensor<1, dim> nodal_force;
     /** Work the condition did on the body in the last step [energy]. */
     double work = 0;
 
@@ -53,6 +56,7 @@ namespace Talus
       const double change  = velocity - node[Fields::velocity + component];
       const double impulse = -node[Fields::mass] * change;
       reaction[component] += impulse / dt;
+      nodal_force[component] += node[Fields::mass] * node[Fields::increment + component] / dt;
       work -= impulse * velocity;
       node[Fields::velocity + component] = velocity;
       node[Fields::increment + component] += change;

@@ -22,6 +22,7 @@ namespace Talus
     dealii::Tensor<1, dim> lost_momentum;         // of empty nodes, in the last step
 
     std::vector<dealii::Tensor<1, dim>> reactions; // of each condition in the last step [force]
+    std::vector<dealii::Tensor<1, dim>> nodal_forces; // on what each condition set [force]
     std::vector<double>                 works;     // of each condition in the last step [energy]
 
     std::vector<dealii::Tensor<1, dim>> traction_forces;    // of each traction in the last step [force]
