@@ -39,8 +39,10 @@ namespace Talus
 
     /** Force of the body on the condition, sum m (v_trial - v) / dt, of this rank's nodes in the last step [force]. */
     dealii::Tensor<1, dim> reaction;
-    /** Nodal forces, of stress, body force and tractions, that it found on what it set in the last step [force]: the
-     * reaction but for what the nodes accelerate. */
+    /**
+     * Forces of stress, body force and tractions on what it was the first to set in the last step, of this rank's
+     * nodes [force]: the reaction but for what the nodes' mass accelerates.
+     */
     dealii::Tensor<1, dim> nodal_force;
     /** Work the condition did on the body in the last step [energy]. */
     double work = 0;
@@ -56,11 +58,11 @@ namespace Talus
       const double change  = velocity - node[Fields::velocity + component];
       const double impulse = -node[Fields::mass] * change;
       reaction[component] += impulse / dt;
-      nodal_force[component] += node[Fields::mass] * node[Fields::increment + component] / dt;
+      if (damping->hold(i, component))
+        nodal_force[component] += node[Fields::mass] * node[Fields::increment + component] / dt;
       work -= impulse * velocity;
       node[Fields::velocity + component] = velocity;
       node[Fields::increment + component] += change;
-      damping->hold(i, component);
     }
 
     std::vector<unsigned int>              boundary_ids;

@@ -24,21 +24,28 @@ namespace Talus
     void begin(const Grid<dim> &grid)
     {
       work = 0;
-      if (factor > 0)
-        is_held.assign(grid.fields.n_owned() * dim, false);
+      for (const std::size_t k : held)
+        is_held[k] = false;
+      held.clear();
+      is_held.resize(grid.fields.n_owned() * dim, false);
     }
 
-    /** This component's velocity is prescribed. */
-    void hold(const unsigned int i, const unsigned int component)
+    /** This component's velocity is prescribed; returns whether it was free until now. */
+    bool hold(const unsigned int i, const unsigned int component)
     {
-      if (factor > 0)
-        is_held[i * dim + component] = true;
+      const std::size_t k        = std::size_t{i} * dim + component;
+      const bool        was_free = !is_held[k];
+      if (was_free)
+        held.push_back(k);
+      is_held[k] = true;
+      return was_free;
     }
 
     /** Damps the velocities of this rank's nodes, after the conditions. */
     void apply(Grid<dim> &grid);
 
   private:
-    std::vector<char> is_held;
+    std::vector<char>        is_held; // dim for each owned node
+    std::vector<std::size_t> held;
   };
 } // namespace Talus
