@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Talus
@@ -17,6 +18,7 @@ namespace Talus
     // Round-off leaves about 1e-12; a looser bound would be seen where runs on several numbers of ranks are compared.
     const double       tolerance      = 1e-10;
     const double       line_accuracy  = 0.3;
+    const double       greatest_force = 1e140; // sums of squares are numbers
     const unsigned int max_iterations = 25, max_halvings = 10;
   } // namespace
 
@@ -110,6 +112,11 @@ namespace Talus
     for (unsigned int n = 0; n < max_iterations; ++n)
     {
       assemble(conditions.constraints(&solution));
+      if (!(right_hand_side.linfty_norm() < greatest_force))
+      {
+        imbalance_history.push_back(std::numeric_limits<double>::infinity());
+        return false;
+      }
       if (n == 0)
         load = right_hand_side.l2_norm();
       const Vector increment = solve_system(conditions.constraints(&solution));
