@@ -24,9 +24,11 @@ KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubi
 TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC"}
 TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none"}
 MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic"},
-             "mises": {"Type": "von Mises"}, "dp": {"Type": "Drucker-Prager"}, "fluid": {"Type": "Newtonian fluid"}}
+             "mises": {"Type": "von Mises", "Yield stress": 500}, "dp": {"Type": "Drucker-Prager"},
+             "fluid": {"Type": "Newtonian fluid"}}
 TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
-         "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
+         "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
+         "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
          "quadratic-tpic-everywhere-neo"]
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 
@@ -59,6 +61,14 @@ def table_row(name, dim, steps):
                 "Transfer/Type": TRANSFERS[transfer]}
     settings.update({f"Materials/soil/{entry}": value for entry, value in MATERIALS[material].items()})
     return Row(name, dim, prm, steps or default_steps, settings)
+
+
+def without_elasticity(prm, directory):
+    """A copy of a file without the entries that a fluid does not know."""
+    path = pathlib.Path(directory) / ("fluid_" + pathlib.Path(prm).name)
+    lines = (runs.ROOT / prm).read_text().splitlines(keepends=True)
+    path.write_text("".join(line for line in lines if "Young's modulus" not in line and "Poisson's ratio" not in line))
+    return str(path)
 
 
 def timed_run(row, settings, n_steps, ranks):
@@ -186,6 +196,9 @@ def main():
         for text in arguments.set:
             entry, value = text.split("=", 1)
             settings[entry.strip()] = value.strip()
+        for row in rows:
+            if row.name.endswith("-fluid"):
+                row.prm = without_elasticity(row.prm, directory)
         if not arguments.csv:
             print(f"2N minus N steps, {arguments.ranks} rank(s), load of the machine before: {os.getloadavg()[0]:.1f}",
                   flush=True)
