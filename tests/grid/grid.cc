@@ -234,8 +234,9 @@ void velocity_update()
 }
 
 /**
- * Active are the nodes from one before to one after the stencils that begin at some places, whichever rank knows the
- * place; clearing zeros those and the velocity update fills those, and no others.
+ * Active are the nodes of the stencils that begin at some places, whichever rank knows the place, and those one before
+ * and one after that a rank with the place knows: the others its particles do not reach before they migrate. Clearing
+ * zeros the active ones and the velocity update fills them, and no others.
  */
 template <int dim>
 void activity()
@@ -252,9 +253,14 @@ void activity()
   for (unsigned int d = 0; d < dim; ++d)
     places[1][d] = cells[d] - 1;
   std::vector<char> first(grid.lattice.node.size(), 0);
+  std::vector<bool> is_known;
   for (const Index &place : places)
-    if (grid.lattice.is_in_table(place) && grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing)
+  {
+    is_known.push_back(grid.lattice.is_in_table(place) &&
+                       grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing);
+    if (is_known.back())
       first[grid.lattice.table_index(place)] = 1;
+  }
   for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
     grid.fields[i][0] = 17;
   grid.activate(first, n);
@@ -262,18 +268,22 @@ void activity()
   double wrong = 0;
   for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
   {
-    bool is_near = false;
-    for (const Index &place : places)
+    bool is_needed = false, is_near = false;
+    for (unsigned int p = 0; p < places.size(); ++p)
     {
-      bool is_here = true;
+      bool is_in_stencil = true, is_one_beyond = true;
       for (unsigned int d = 0; d < dim; ++d)
-        is_here =
-          is_here && grid.node_index[i][d] >= place[d] - 1 && grid.node_index[i][d] <= place[d] + static_cast<int>(n);
-      is_near = is_near || is_here;
+      {
+        const int offset = grid.node_index[i][d] - places[p][d];
+        is_in_stencil    = is_in_stencil && offset >= 0 && offset < static_cast<int>(n);
+        is_one_beyond    = is_one_beyond && offset >= -1 && offset <= static_cast<int>(n);
+      }
+      is_needed = is_needed || is_in_stencil || (is_one_beyond && is_known[p]);
+      is_near   = is_near || is_one_beyond;
     }
     const bool is_listed = std::binary_search(grid.active_nodes.begin(), grid.active_nodes.end(), i);
-    wrong += is_near != grid.is_active[i];
-    wrong += i < grid.fields.n_owned() && is_near != is_listed;
+    wrong += (is_needed && !grid.is_active[i]) || (grid.is_active[i] && !is_near);
+    wrong += i < grid.fields.n_owned() && grid.is_active[i] != is_listed;
     wrong += grid.fields[i][0] != 0;
   }
   check("active nodes", wrong, 0.5);
