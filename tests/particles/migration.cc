@@ -152,8 +152,8 @@ void far_away()
 
 /**
  * How far a particle may go beyond its rank's cells: as far as the rank knows its nodes, which are those of the
- * neighbouring cells: h for linear, h/2 for quadratic
- * and uGIMP (its stencil of three), 0 for cubic.
+ * neighbouring cells: h for linear, h/2 for quadratic and uGIMP (its stencil of three), 0 for cubic. On two ranks, which
+ * meet in the middle.
  */
 template <int dim>
 void drift()
