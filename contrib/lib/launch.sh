@@ -8,7 +8,7 @@ export TALUS_BUILD=$build
 prepare() {
   "$root/contrib/install-dependencies"
   [ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -G Ninja
-  cmake --build "$build" --target talus -j "$(nproc)"
+  cmake --build "$build" --target talus -j "$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)"
 }
 
 # Runs a Python script of contrib/lib with an interpreter that has numpy and matplotlib. The first
