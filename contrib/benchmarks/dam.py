@@ -39,8 +39,7 @@ def runs():
     still = {"Grid/Upper corner": "1.2, 1", "Output/Time interval": 0.5}
     # A probe in each step would be large; the front is read from tables .005 s apart.
     dam = {"Output/Time interval": 0.005, "Output/Grid": "false"}
-    fine = {"Grid/Spacing": FINE, "Grid/Upper corner": f"{WIDTH[FINE]}, 2", "Run/End time": 3.4,
-            "Output/Time interval": 0.005, "Output/Grid": "false"}
+    fine = {**dam, "Grid/Spacing": FINE, "Grid/Upper corner": f"{WIDTH[FINE]}, 2", "Run/End time": 3.4}
     return ([run("long dam", "quadratic B-spline", transfer, fine, cure, FINE) for transfer, cure in LONG]
             + [run("dam", "quadratic B-spline", transfer, dam) for transfer in ("FLIP", "APIC", "TPIC")]
             + [run("dam", "uGIMP", transfer, dam) for transfer in ("FLIP", "TPIC")]
@@ -85,8 +84,9 @@ def arrival(result):
     """t sqrt(g/H) when the foremost particle is within h of the far wall, from tables .005 s apart."""
     if result.status != 0:
         return math.nan
+    h = result.run.label["h"]
     for time in np.arange(0.5, 0.8, 0.005):
-        if np.max(result.particles(time)["x"]) > WIDTH[result.run.label["h"]] - result.run.label["h"]:
+        if np.max(result.particles(time)["x"]) > WIDTH[h] - h:
             return time * math.sqrt(G / DEPTH)
     return math.nan
 
@@ -126,7 +126,7 @@ def table(results):
 
 
 def figures(results):
-    by = {tuple(result.run.label.values())[:4]: result for result in results}
+    by = {tuple(result.run.label[key] for key in ("case", "kernel", "transfer", "cure")): result for result in results}
     flip, tpic = (by["dam", "quadratic B-spline", transfer, "none"] for transfer in ("FLIP", "TPIC"))
     values = []
     for time, least_rms, least_median in ((0.3, 5, 5), (1, 10, 10)):

@@ -253,14 +253,26 @@ void activity()
   for (unsigned int d = 0; d < dim; ++d)
     places[1][d] = cells[d] - 1;
   std::vector<char> first(grid.lattice.node.size(), 0);
-  std::vector<bool> is_known;
+  const auto        is_around = [&](const unsigned int i, const Index &place, const int margin) {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (grid.node_index[i][d] < place[d] - margin ||
+          grid.node_index[i][d] >= place[d] + static_cast<int>(n) + margin)
+        return false;
+    return true;
+  };
+  grid.fields.clear();
   for (const Index &place : places)
-  {
-    is_known.push_back(grid.lattice.is_in_table(place) &&
-                       grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing);
-    if (is_known.back())
+    if (grid.lattice.is_in_table(place) && grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing)
+    {
       first[grid.lattice.table_index(place)] = 1;
-  }
+      for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+        grid.fields[i][0] += is_around(i, place, 1);
+    }
+  grid.fields.add_copies_to_owners();
+  grid.fields.update_copies();
+  std::vector<bool> is_near;
+  for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+    is_near.push_back(grid.fields[i][0] > 0);
   for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
     grid.fields[i][0] = 17;
   grid.activate(first, n);
@@ -268,22 +280,11 @@ void activity()
   double wrong = 0;
   for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
   {
-    bool is_needed = false, is_near = false;
-    for (unsigned int p = 0; p < places.size(); ++p)
-    {
-      bool is_in_stencil = true, is_one_beyond = true;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const int offset = grid.node_index[i][d] - places[p][d];
-        is_in_stencil    = is_in_stencil && offset >= 0 && offset < static_cast<int>(n);
-        is_one_beyond    = is_one_beyond && offset >= -1 && offset <= static_cast<int>(n);
-      }
-      is_needed = is_needed || is_in_stencil || (is_one_beyond && is_known[p]);
-      is_near   = is_near || is_one_beyond;
-    }
-    const bool is_listed = std::binary_search(grid.active_nodes.begin(), grid.active_nodes.end(), i);
-    wrong += (is_needed && !grid.is_active[i]) || (grid.is_active[i] && !is_near);
-    wrong += i < grid.fields.n_owned() && grid.is_active[i] != is_listed;
+    const bool is_in_stencil = is_around(i, places[0], 0) || is_around(i, places[1], 0);
+    const bool is_listed     = std::binary_search(grid.active_nodes.begin(), grid.active_nodes.end(), i);
+    wrong += is_near[i] != grid.is_active[i];
+    wrong += is_in_stencil && !grid.is_active[i];
+    wrong += i < grid.fields.n_owned() && is_near[i] != is_listed;
     wrong += grid.fields[i][0] != 0;
   }
   check("active nodes", wrong, 0.5);

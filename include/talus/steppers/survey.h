@@ -21,9 +21,9 @@ namespace Talus
     double                 body_force_power  = 0; // sum m b . v [energy/time]
     dealii::Tensor<1, dim> lost_momentum;         // of empty nodes, in the last step
 
-    std::vector<dealii::Tensor<1, dim>> reactions; // of each condition in the last step [force]
+    std::vector<dealii::Tensor<1, dim>> reactions;    // of each condition in the last step [force]
     std::vector<dealii::Tensor<1, dim>> nodal_forces; // on what each condition set [force]
-    std::vector<double>                 works;     // of each condition in the last step [energy]
+    std::vector<double>                 works;        // of each condition in the last step [energy]
 
     std::vector<dealii::Tensor<1, dim>> traction_forces;    // of each traction in the last step [force]
     double                              traction_work  = 0; // of all tractions in the last step [energy]
