@@ -3,7 +3,7 @@
 #include <talus/particles/particles.h>
 
 #ifdef __GLIBC__
-#  include <malloc.h>
+#include <malloc.h>
 #endif
 
 #include <algorithm>
@@ -115,7 +115,10 @@ namespace Talus
     double n_indices = 0;
     for (const auto &body : bodies)
       n_indices += body->shape->n_indices();
-    home->get_property_pool().reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
+    this->reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
+    // The home is emptied by portions that fit into the cache.
+    constexpr unsigned int portion = 1 << 14;
+    unsigned int           n_home  = 0;
 
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
@@ -141,9 +144,14 @@ namespace Talus
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];
+            if (++n_home == portion)
+            {
+              load(n_home);
+              n_home = 0;
+            }
           });
     }
-    home->update_cached_numbers();
+    load(n_home);
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -155,8 +163,11 @@ namespace Talus
       n_global += n_created[b];
     }
     // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
-    grid.mass_floor = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
-    load();
+    grid.mass_floor                = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
+    const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
+    this->material_begin.assign(n_materials + 1, 0);
+    sort();
+    return_free_memory();
   }
 
   template <int dim>
@@ -388,12 +399,10 @@ namespace Talus
   }
 
   template <int dim>
-  void Particles<dim>::load()
+  void Particles<dim>::load(const unsigned int n)
   {
-    const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
-    this->resize(home->n_locally_owned_particles());
-    this->material_begin.assign(n_materials + 1, 0);
-    unsigned int p = 0;
+    unsigned int p = this->size();
+    this->resize(p + n);
     for (auto &particle : *home)
     {
       this->id[p]           = particle.get_id();
@@ -403,9 +412,8 @@ namespace Talus
         this->column(c)[p] = properties[c];
       ++p;
     }
-    sort();
+    AssertDimension(p, this->size());
     home->clear();
-    return_free_memory();
   }
 
   template class Particles<2>;

@@ -82,7 +82,8 @@ namespace Talus
     std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places
 
   private:
-    void load(); // home -> working set
+    /** Appends the n particles of the home to the working set, and empties the home. */
+    void load(const unsigned int n);
 
     unsigned int body_of(const dealii::types::particle_index id) const;
 

@@ -36,6 +36,9 @@ namespace Talus
     unsigned int size() const { return id.size(); }
     void         resize(const unsigned int n_particles);
 
+    /** Takes the addresses for so many particles at once; memory itself comes with the particles. */
+    void reserve(const unsigned int n_particles);
+
     /** Puts particle order[i] at place i; particles that are not in `order` are dropped. */
     void permute(const std::vector<unsigned int> &order);
 
