@@ -84,6 +84,26 @@ namespace Talus
         return C;
       }
 
+      /** The same where D is diagonal. */
+      template <class Batch, typename Number = typename Batch::Number>
+      [[gnu::always_inline]] Tensor<2, dim, Number> affine(const TransferArrays<dim> &arrays, const Batch &batch,
+                                                           const Tensor<1, dim, Number> &D, const double h) const
+      {
+        const Number smallest = 1e-12 * h * h;
+        auto         C        = load_matrix<dim>(batch, arrays.B);
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          const auto   is_regular = D[e] > smallest;
+          const Number inverse    = 1. / select(is_regular, D[e], Number(1.));
+          for (unsigned int d = 0; d < dim; ++d)
+            C[d][e] *= inverse;
+          if (any(!is_regular))
+            for (unsigned int d = 0; d < dim; ++d)
+              C[d][e] = select(is_regular, C[d][e], batch.load(arrays.grad_v[d * dim + e]));
+        }
+        return C;
+      }
+
       template <class Batch>
       void update(const TransferArrays<dim> &arrays, const Batch &batch,
                   const Gathered<dim, typename Batch::Number> &sum) const

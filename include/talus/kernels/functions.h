@@ -14,6 +14,7 @@ namespace Talus
     static constexpr unsigned int n              = 2;
     static constexpr double       shift          = 0;
     static constexpr double       boundary_scale = 1;
+    static constexpr double       second_moment  = 0;
 
     double support() const { return 1; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
@@ -33,6 +34,7 @@ namespace Talus
     static constexpr unsigned int n              = 3;
     static constexpr double       shift          = 0.5;
     static constexpr double       boundary_scale = 4. / 3.;
+    static constexpr double       second_moment  = 1. / 4.;
 
     double support() const { return 1.5; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
@@ -55,6 +57,7 @@ namespace Talus
     static constexpr unsigned int n              = 4;
     static constexpr double       shift          = 1;
     static constexpr double       boundary_scale = 1.5;
+    static constexpr double       second_moment  = 1. / 3.;
 
     double support() const { return 2; }
     void   add_parameters(dealii::ParameterAcceptor &) {}
@@ -83,6 +86,7 @@ namespace Talus
     static constexpr unsigned int n              = 3;
     static constexpr double       shift          = 0.5;
     static constexpr double       boundary_scale = 0;
+    static constexpr double       second_moment  = 0;
 
     double lp = 0.25;
 
@@ -109,6 +113,8 @@ namespace Talus
       }
     }
   };
+
+  // second_moment: sum phi_i (x_i - x)^2 along an axis, if it is the same everywhere, or 0 [h^2].
 
   /** All of them: the batched loops are compiled for each. */
   using LatticeFunction = std::variant<LinearFunction, QuadraticBSpline, CubicBSpline, GimpFunction>;

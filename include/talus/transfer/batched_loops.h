@@ -37,7 +37,7 @@ namespace Talus
           b = body_force(acceleration, x, time);
 
         Vectors add;
-        contribution(scheme, arrays, batch, stencil, b, lattice.largest_spacing(), add);
+        contribution(scheme, arrays, batch, stencil, b, lattice, add);
         const Factors factors(stencil);
         if (!stencil.is_product)
           for (unsigned int l = 0; l < batch.size(); ++l)
@@ -57,6 +57,7 @@ namespace Talus
       Number               displacement = 0.;
       LatticeBatch<dim, n> stencil;
       for_each_batch(begin, end, [&](const auto batch) {
+        prefetch(arrays, batch.p);
         const auto x = load_vector<dim>(batch, arrays.position);
         evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
         const Factors factors(stencil);
@@ -111,6 +112,17 @@ namespace Talus
       Number moment[dim][n];
     };
 
+    /** What the update of the stress will read comes into the cache while the gather computes. */
+    [[gnu::always_inline]] static void prefetch(const TransferArrays<dim> &arrays, const unsigned int p)
+    {
+      for (const double *column : arrays.F)
+        __builtin_prefetch(column + p, 1, 2);
+      for (const double *column : arrays.stress)
+        __builtin_prefetch(column + p, 1, 2);
+      __builtin_prefetch(arrays.volume + p, 1, 2);
+      __builtin_prefetch(arrays.mass + p, 0, 2);
+    }
+
     static typename Node::Mask is_force()
     {
       double lane[8];
@@ -143,8 +155,7 @@ namespace Talus
     template <class Batch>
     [[gnu::always_inline]] static void contribution(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                                     const Batch &batch, const LatticeBatch<dim, n> &stencil,
-                                                    const VectorNumber &b, [[maybe_unused]] const double h,
-                                                    Vectors &add)
+                                                    const VectorNumber &b, const Lattice<dim> &lattice, Vectors &add)
     {
       const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
       Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
@@ -158,7 +169,12 @@ namespace Talus
 
       dealii::Tensor<2, dim, Number> C;
       if constexpr (is_affine)
-        C = scheme.affine(arrays, batch, second_moment(stencil), h);
+      {
+        if (stencil.is_product)
+          C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
+        else
+          C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
+      }
       if (is_affine && !stencil.is_product && scheme.projects_slip)
         C = without_wall_shear(C, stencil.is_at_slip_wall);
       for (unsigned int e = 0; e < dim; ++e)
@@ -174,26 +190,35 @@ namespace Talus
       }
     }
 
-    /** D, Eq. (18), if the scheme needs it. */
-    [[gnu::always_inline]] static dealii::SymmetricTensor<2, dim, Number> second_moment(
-      const LatticeBatch<dim, n> &stencil)
+    /** D, Eq. (18), of a stencil that is a list, if the scheme needs it. */
+    static dealii::SymmetricTensor<2, dim, Number> second_moment(const LatticeBatch<dim, n> &stencil)
     {
       dealii::SymmetricTensor<2, dim, Number> D;
       if constexpr (Scheme::needs_D)
-      {
-        if (stencil.is_product) // of factors that reproduce linear functions: their mean offset is zero
+        for (unsigned int i = 0; i < stencil.n_nodes; ++i)
+        {
+          const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
           for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = 0; e <= d; ++e)
+              D[d][e] += stencil.value[i] * stencil.offset[d][k[d]] * stencil.offset[e][k[e]];
+        }
+      return D;
+    }
+
+    /** The diagonal of D of a product of factors: they reproduce linear functions, so that all else is zero. */
+    [[gnu::always_inline]] static VectorNumber diagonal_second_moment(const LatticeBatch<dim, n> &stencil,
+                                                                      const std::array<double, dim> &h)
+    {
+      VectorNumber D;
+      if constexpr (Scheme::needs_D)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          if constexpr (Function::second_moment > 0)
+            D[d] = Function::second_moment * h[d] * h[d];
+          else
             for (unsigned int k = 0; k < n; ++k)
-              D[d][d] += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
-        else
-          for (unsigned int i = 0; i < stencil.n_nodes; ++i)
-          {
-            const unsigned int k[3] = {i % n, i / n % n, i / (n * n)};
-            for (unsigned int d = 0; d < dim; ++d)
-              for (unsigned int e = 0; e <= d; ++e)
-                D[d][e] += stencil.value[i] * stencil.offset[d][k[d]] * stencil.offset[e][k[e]];
-          }
-      }
+              D[d] += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
+        }
       return D;
     }
 
@@ -255,10 +280,11 @@ namespace Talus
       double *const        first    = fields.at_place(place);
       if constexpr (dim == 2)
       {
+        // From zero, so that no run waits for what the one before it has stored.
         Node sum[n][n];
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
-            sum[b][a] = Node::load(first + b * stride_y + a * Fields::stride);
+            sum[b][a] = 0.;
         do
         {
           scatter_product(vectors, factors, stencil, l,
@@ -270,7 +296,7 @@ namespace Talus
         } while (l < size && stencil.first_node[l] == place);
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int a = 0; a < n; ++a)
-            sum[b][a].store(first + b * stride_y + a * Fields::stride);
+            add_to(first + b * stride_y + a * Fields::stride, sum[b][a]);
       }
       else
       {

@@ -16,7 +16,8 @@ namespace Talus
       velocity(particles.template components<dim>(particles.velocity)),
       grad_v(particles.template components<dim * dim>(particles.grad_v)),
       stress(particles.template components<WorkingSet<dim>::n_stress>(particles.stress)),
-      mass(particles.component(particles.mass, 0)), volume(particles.component(particles.volume, 0))
+      mass(particles.component(particles.mass, 0)), volume(particles.component(particles.volume, 0)),
+      F(particles.template components<dim * dim>(particles.F))
     {
     }
 
@@ -24,6 +25,7 @@ namespace Talus
     std::array<double *, dim * dim>                 grad_v;
     std::array<double *, WorkingSet<dim>::n_stress> stress;
     double                                         *mass, *volume;
+    std::array<double *, dim * dim>                 F; // not read: what follows the gather does
     std::array<double *, dim * dim>                 B{}; // the affine moment, where a scheme stores it
   };
 
