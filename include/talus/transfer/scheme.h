@@ -25,7 +25,7 @@ namespace Talus
     std::array<double *, dim * dim>                 grad_v;
     std::array<double *, WorkingSet<dim>::n_stress> stress;
     double                                         *mass, *volume;
-    std::array<double *, dim * dim>                 F; // not read: what follows the gather does
+    std::array<double *, dim * dim>                 F;   // not read: what follows the gather does
     std::array<double *, dim * dim>                 B{}; // the affine moment, where a scheme stores it
   };
 
