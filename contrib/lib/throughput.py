@@ -42,6 +42,9 @@ class Row:
     settings: dict
     wall: list = dataclasses.field(default_factory=list)
     processor: list = dataclasses.field(default_factory=list)
+    busiest: list = dataclasses.field(default_factory=list)  # of one rank, outside waiting for others
+    messages: float = 0  # that a rank sends in a step
+    sent: float = 0      # by a rank in a step [kB]
     particles: int = 0
     bytes_per_particle: float = 0
     peak_bytes: float = 0
@@ -72,7 +75,7 @@ def without_elasticity(prm, directory):
 
 
 def timed_run(row, settings, n_steps, ranks):
-    """Wall and processor time [s] of one run; notes what the program says of itself."""
+    """Wall and processor time, and that of the busiest rank [s], of one run; notes what the program says of itself."""
     start = time.perf_counter()
     process = subprocess.Popen(
         runs.command(row.prm, {**row.settings, **settings, "Run/Number of steps": n_steps}, ranks), text=True,
@@ -96,7 +99,12 @@ def timed_run(row, settings, n_steps, ranks):
         row.bytes_per_particle, row.peak_bytes = float(memory[1]), float(memory[2])
     row.phases = {name.strip(): float(share) for name, share in
                   re.findall(r"^  (\S.*?) +[\d.]+ s +([\d.]+) %$", output, re.M)}
-    return wall, usage.ru_utime + usage.ru_stime
+    processor = usage.ru_utime + usage.ru_stime
+    busiest = re.search(r"busiest rank: (\S+) s", output)
+    sent = re.search(r"a rank sends (\S+) messages and (\S+) kB", output)
+    if sent:
+        row.messages, row.sent = float(sent[1]), float(sent[2])
+    return wall, processor, float(busiest[1]) if busiest else processor
 
 
 def measure(rows, arguments, settings):
@@ -108,6 +116,7 @@ def measure(rows, arguments, settings):
             work = row.steps * row.particles
             row.wall.append(1e9 * (long[0] - short[0]) / work)
             row.processor.append(1e9 * (long[1] - short[1]) / work)
+            row.busiest.append(1e9 * (long[2] - short[2]) / work)
             if not arguments.csv:
                 print(f"  repeat {repeat + 1} of {arguments.repeats}, {row.name} {row.dim}D: {row.wall[-1]:.1f} ns "
                       f"wall, {row.processor[-1]:.1f} ns processor", flush=True)
@@ -177,6 +186,11 @@ def report(rows, arguments):
               f" {statistics.median(row.processor):10.1f} {row.bytes_per_particle:12.0f} {row.peak_bytes:6.0f}"
               f" {1e9 * traffic(row.dim) / speed:17.1f}")
     print(f"\nMedian of {arguments.repeats}, {arguments.ranks} rank(s). One core moves {speed / 1e9:.1f} GB/s.")
+    if arguments.ranks > 1:
+        print("Busiest rank's processor time outside waiting, per particle of all ranks [ns]; what a rank sends in a step:")
+        for row in rows:
+            print(f"  {row.name} {row.dim}D: {statistics.median(row.busiest):.1f} ({min(row.busiest):.1f} to "
+                  f"{max(row.busiest):.1f}); {row.messages:.1f} messages, {row.sent:.1f} kB")
     print("Shares of the longer run's wall time [%]:")
     for row in rows:
         print(f"  {row.name} {row.dim}D: " + ", ".join(f"{name} {share:.0f}" for name, share in row.phases.items()

@@ -70,14 +70,14 @@ namespace Talus
   }
 
   template <int dim>
-  void Condition<dim>::apply(const double time, const double dt, Grid<dim> &grid, LocalDamping<dim> &damping)
+  void Condition<dim>::apply(const double time, const double dt, Grid<dim> &grid, HeldComponents<dim> &held)
   {
-    this->dt      = dt;
-    this->grid    = &grid;
-    this->damping = &damping;
-    reaction      = 0;
-    nodal_force   = 0;
-    work          = 0;
+    this->dt    = dt;
+    this->grid  = &grid;
+    this->held  = &held;
+    reaction    = 0;
+    nodal_force = 0;
+    work        = 0;
     if (acts(time))
       prescribe(time, grid);
   }

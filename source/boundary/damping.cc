@@ -5,8 +5,9 @@
 namespace Talus
 {
   template <int dim>
-  void LocalDamping<dim>::apply(Grid<dim> &grid)
+  void LocalDamping<dim>::apply(const HeldComponents<dim> &held, Grid<dim> &grid)
   {
+    work = 0;
     if (!(factor > 0))
       return;
     using Fields = NodalFields<dim>;
@@ -18,7 +19,7 @@ namespace Talus
         double &v = node[Fields::velocity + d], &increment = node[Fields::increment + d];
         // The increment is dt f_i / m_i where no condition acts.
         const double v_before = v - increment;
-        if (is_held[i * dim + d] || v_before == 0)
+        if (held(i, d) || v_before == 0)
           continue;
         const double change = -factor * std::copysign(increment, v_before);
         v += change;

@@ -1,4 +1,5 @@
 #include <talus/core/reduction.h>
+#include <talus/core/traffic.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -38,8 +39,12 @@ namespace Talus
     MPI_Type_contiguous(message.size(), MPI_DOUBLE, &type);
     MPI_Type_commit(&type);
     MPI_Op_create(combine, /* commutes = */ 1, &operation);
-    const int error = MPI_Allreduce(MPI_IN_PLACE, message.data(), 1, type, operation, communicator);
-    AssertThrowMPI(error);
+    Traffic::here().sent(message.size() * sizeof(double));
+    {
+      const Traffic::Wait wait;
+      const int           error = MPI_Allreduce(MPI_IN_PLACE, message.data(), 1, type, operation, communicator);
+      AssertThrowMPI(error);
+    }
     MPI_Op_free(&operation);
     MPI_Type_free(&type);
 

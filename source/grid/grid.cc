@@ -257,6 +257,26 @@ namespace Talus
   }
 
   template <int dim>
+  bool Grid<dim>::is_active_around(const typename Lattice<dim>::Index &first, const unsigned int n) const
+  {
+    unsigned int n_entries = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      n_entries *= n + 2;
+    for (unsigned int i = 0; i < n_entries; ++i)
+    {
+      auto index = first;
+      for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n + 2)
+        index[d] += static_cast<int>(rest % (n + 2)) - 1;
+      if (!lattice.is_in_table(index))
+        continue;
+      const unsigned int node = lattice.node[lattice.table_index(index)];
+      if (node != lattice.missing && !is_active[node])
+        return false;
+    }
+    return true;
+  }
+
+  template <int dim>
   void Grid<dim>::set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n)
   {
     AssertDimension(faces.size(), fields.n_owned());

@@ -1,3 +1,4 @@
+#include <talus/core/traffic.h>
 #include <talus/grid/nodal_fields.h>
 
 #include <algorithm>
@@ -80,8 +81,12 @@ namespace Talus
         next = std::copy_n((*this)[i], stride, next);
       MPI_Isend(message.buffer.data(), message.buffer.size(), MPI_DOUBLE, message.rank, message_tag, communicator,
                 &*request++);
+      Traffic::here().sent(message.buffer.size() * sizeof(double));
     }
-    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    {
+      const Traffic::Wait wait;
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    }
     // In the order of the ranks and not of arrival: sums are then the same in each run.
     for (const Message &message : in)
     {

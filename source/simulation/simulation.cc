@@ -1,6 +1,7 @@
 #include <talus/simulation/simulation.h>
 
 #include <talus/core/command_line.h>
+#include <talus/core/traffic.h>
 #include <talus/postprocess/energies.h>
 
 #include <iomanip>
@@ -120,6 +121,8 @@ namespace Talus
     set_up();
     open_output();
     postprocess();
+    Traffic::here()         = {};
+    processor_time_at_start = processor_time();
     while (!is_finished())
     {
       advance();
@@ -253,7 +256,25 @@ namespace Talus
       output.write(time, step, particles, grid);
     }
     say(timing.table() + "  " + std::to_string(upkeep.n_migrations) + " migrations between ranks, " +
-        std::to_string(upkeep.n_sorts) + " sorts\n" + memory());
+        std::to_string(upkeep.n_sorts) + " sorts\n" + traffic() + memory());
+  }
+
+  template <int dim>
+  std::string Simulation<dim>::traffic() const
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks == 1 || step == 0)
+      return "";
+    const Traffic &here = Traffic::here();
+    const double   busy = Utilities::MPI::max(processor_time() - processor_time_at_start - here.waiting, communicator);
+    const double   per_step = 1. / (static_cast<double>(step) * n_ranks);
+    const double   bytes    = per_step * Utilities::MPI::sum(static_cast<double>(here.bytes), communicator),
+                 messages   = per_step * Utilities::MPI::sum(static_cast<double>(here.messages), communicator);
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(3) << "  busiest rank: " << busy << " s of processor time outside waiting\n"
+         << std::setprecision(1) << "  a rank sends " << messages << " messages and " << bytes / 1000
+         << " kB in a step\n";
+    return text.str();
   }
 
   template <int dim>

@@ -2,15 +2,19 @@
 
 namespace Talus
 {
+  using namespace dealii;
+
   template <int dim>
   void Upkeep<dim>::run(Model<dim> &model, const Survey<dim> &now)
   {
     since_sort += now.displacement;
     since_activation += now.displacement;
 
+    bool has_new_nodes = false;
     if (now.needs_synchronise)
     {
       model.particles.migrate();
+      has_new_nodes = Utilities::MPI::logical_or(model.particles.brings_new_nodes, model.grid.communicator);
       ++n_migrations;
     }
     // A stale order costs little for a few cells of drift, and a sort as much as a step or two.
@@ -21,8 +25,8 @@ namespace Talus
       ++n_sorts;
     }
     // Active nodes reach one spacing beyond the stencils, as far as the particle's rank knows them: who comes from
-    // another rank brings new ones.
-    if (since_activation > 1 || now.needs_synchronise)
+    // another rank may bring new ones.
+    if (since_activation > 1 || has_new_nodes)
     {
       model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
       model.boundary.select(model.grid);

@@ -21,10 +21,10 @@ namespace Talus
     void select(const Grid<dim> &grid);
 
     /**
-     * Changes the velocities of this rank's nodes at the end of the step, if its interval contains `time`. What it
-     * sets is not damped.
+     * Changes the velocities of this rank's nodes at the end of the step, if its interval contains `time`, and
+     * notes what it sets.
      */
-    void apply(const double time, const double dt, Grid<dim> &grid, LocalDamping<dim> &damping);
+    void apply(const double time, const double dt, Grid<dim> &grid, HeldComponents<dim> &held);
 
     /** Whether it acts in a step that ends at `time`. */
     bool acts(const double time) const;
@@ -58,7 +58,7 @@ namespace Talus
       const double change  = velocity - node[Fields::velocity + component];
       const double impulse = -node[Fields::mass] * change;
       reaction[component] += impulse / dt;
-      if (damping->hold(i, component))
+      if (held->hold(i, component))
         nodal_force[component] += node[Fields::mass] * node[Fields::increment + component] / dt;
       work -= impulse * velocity;
       node[Fields::velocity + component] = velocity;
@@ -72,9 +72,9 @@ namespace Talus
     std::vector<std::vector<unsigned int>> all_nodes; // owned
     std::vector<double>                    lower, upper;
     std::vector<double>                    start_time, end_time; // one number or none
-    double                                 dt      = 0;
-    Grid<dim>                             *grid    = nullptr;
-    LocalDamping<dim>                     *damping = nullptr;
+    double                                 dt   = 0;
+    Grid<dim>                             *grid = nullptr;
+    HeldComponents<dim>                   *held = nullptr;
   };
 
   /** The conditions of a run, applied in the order of the list, and the damping of what they leave free. */
@@ -84,10 +84,10 @@ namespace Talus
   public:
     void apply(const double time, const double dt, Grid<dim> &grid)
     {
-      damping.begin(grid);
+      held.clear(grid.fields.n_owned());
       for (auto &condition : conditions)
-        condition->apply(time, dt, grid, damping);
-      damping.apply(grid);
+        condition->apply(time, dt, grid, held);
+      damping.apply(held, grid);
     }
 
     void select(const Grid<dim> &grid)
@@ -107,6 +107,7 @@ namespace Talus
     LocalDamping<dim>                            damping;
 
   private:
-    std::vector<bool> marked; // which conditions acted when the slip walls were marked
+    HeldComponents<dim> held;
+    std::vector<bool>   marked; // which conditions acted when the slip walls were marked
   };
 } // namespace Talus

@@ -1,8 +1,7 @@
 #pragma once
 
+#include <talus/boundary/held_components.h>
 #include <talus/grid/grid.h>
-
-#include <vector>
 
 namespace Talus
 {
@@ -20,32 +19,7 @@ namespace Talus
     double factor = 0; // alpha [1], 0 <= alpha < 1; 0: none, at no cost
     double work   = 0; // on the body in the last step [energy]
 
-    /** Forgets what was held in the last step. */
-    void begin(const Grid<dim> &grid)
-    {
-      work = 0;
-      for (const std::size_t k : held)
-        is_held[k] = false;
-      held.clear();
-      is_held.resize(grid.fields.n_owned() * dim, false);
-    }
-
-    /** This component's velocity is prescribed; returns whether it was free until now. */
-    bool hold(const unsigned int i, const unsigned int component)
-    {
-      const std::size_t k        = std::size_t{i} * dim + component;
-      const bool        was_free = !is_held[k];
-      if (was_free)
-        held.push_back(k);
-      is_held[k] = true;
-      return was_free;
-    }
-
-    /** Damps the velocities of this rank's nodes, after the conditions. */
-    void apply(Grid<dim> &grid);
-
-  private:
-    std::vector<char>        is_held; // dim for each owned node
-    std::vector<std::size_t> held;
+    /** Damps the velocities of this rank's nodes that are not `held`, after the conditions. */
+    void apply(const HeldComponents<dim> &held, Grid<dim> &grid);
   };
 } // namespace Talus

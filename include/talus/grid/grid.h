@@ -46,6 +46,9 @@ namespace Talus
      */
     void activate(const std::vector<char> &first, const unsigned int n);
 
+    /** Whether activate() would find nothing new in a stencil that begins at `first`, as far as this rank knows. */
+    bool is_active_around(const typename Lattice<dim>::Index &first, const unsigned int n) const;
+
     /**
      * Tells the lattice where stencils of n nodes per axis meet slip walls; `faces` has for each owned node those on
      * which it slips. Collective.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +50,29 @@ namespace Talus
     bool is_inside(const double coordinate, const unsigned int d) const
     {
       return coordinate >= 0 && coordinate < n_cells[d];
+    }
+
+    /** The cell that contains x, whether or not it exists. */
+    Index cell_index(const dealii::Point<dim> &x) const
+    {
+      Index index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = static_cast<int>(std::floor(coordinate(x[d], d)));
+      return index;
+    }
+
+    /** x, moved off the faces of its cell, on which deal.II may lose a particle. */
+    dealii::Point<dim> inside_cell(const dealii::Point<dim> &x) const
+    {
+      constexpr double   margin = 1e-6;
+      dealii::Point<dim> inside;
+      const Index        cell = cell_index(x);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double local = coordinate(x[d], d) - cell[d];
+        inside[d]          = origin[d] + h[d] * (cell[d] + std::min(std::max(local, margin), 1 - margin));
+      }
+      return inside;
     }
 
     bool is_in_table(const Index &index) const

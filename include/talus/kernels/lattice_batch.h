@@ -27,6 +27,45 @@ namespace Talus
     bool                  has_images;           // nodes beyond slip walls have weight: see Treatment::is_mirror()
   };
 
+  /** The axes' weights times offsets, where they are needed. */
+  template <int dim, unsigned int n, bool is_needed>
+  struct LatticeMoments
+  {
+    explicit LatticeMoments(const LatticeBatch<dim, n> &stencil)
+    {
+      if constexpr (is_needed)
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int k = 0; k < n; ++k)
+            moment[d][k] = stencil.weight[d][k] * stencil.offset[d][k];
+    }
+    Simd<native_width> moment[dim][n];
+  };
+
+  /**
+   * Calls `body(i, k, place, beyond)` for the existing nodes of a stencil that is a list; k is where along each axis.
+   * The node at the place stands for its mirror image in the faces `beyond`, if there are any.
+   */
+  template <int dim, unsigned int n, class Body>
+  [[gnu::always_inline]] inline void for_each_node(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                                                   const unsigned int l, const Body &body)
+  {
+    for (unsigned int i = 0; i < stencil.n_nodes; ++i)
+    {
+      const unsigned int k[3]  = {i % n, i / n % n, i / (n * n)};
+      unsigned int       place = stencil.first_node[l], beyond = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        place += k[d] * lattice.stride[d];
+      if (lattice.node[place] == Lattice<dim>::missing)
+      {
+        if (!stencil.has_images || lattice.image[place] == Lattice<dim>::missing)
+          continue;
+        beyond = lattice.beyond[place];
+        place  = lattice.image[place];
+      }
+      body(i, k, place, beyond);
+    }
+  }
+
   /** Lanes whose stencil meets a face of the domain as a slip wall. */
   template <int dim, unsigned int n>
   typename LatticeBatch<dim, n>::Number::Mask meets_slip_wall(const Lattice<dim>         &lattice,

@@ -76,6 +76,7 @@ namespace Talus
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
+    bool         brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
     unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
 
     std::uint64_t n_global    = 0;
@@ -84,6 +85,9 @@ namespace Talus
   private:
     /** Appends the n particles of the home to the working set, and empties the home. */
     void load(const unsigned int n);
+
+    /** Lattice index of the first node of a particle's stencil. */
+    typename Lattice<dim>::Index first_node(const unsigned int p) const;
 
     unsigned int body_of(const dealii::types::particle_index id) const;
 

@@ -42,11 +42,13 @@ namespace Talus
     /** Writes to the terminal and the log; rank 0. */
     void        say(const std::string &text);
     std::string summary() const;
-    std::string memory() const; // what a particle takes, the grid's and all other memory included; collective
+    std::string traffic() const; // between ranks in the steps; collective
+    std::string memory() const;  // what a particle takes, the grid's and all other memory included; collective
 
     MPI_Comm           communicator;
     const Parameters  &parameters;
-    const double       memory_at_start; // resident memory of this rank, before anything is built [byte]
+    const double       memory_at_start;             // resident memory of this rank, before anything is built [byte]
+    double             processor_time_at_start = 0; // of this rank, before the first step [s]
     Timing             timing;
     const StepTiming   step_timing;
     const unsigned int set_up_section, upkeep_section, smoothing_section, output_section, comparison_section;

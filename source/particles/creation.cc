@@ -1,0 +1,170 @@
+#include <talus/core/exceptions.h>
+#include <talus/particles/particles.h>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <algorithm>
+#include <limits>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Visits what the bodies put into a cell. */
+    template <int dim, class Visitor>
+    void visit_cell(const Grid<dim> &grid, const Body<dim> &body, const typename Grid<dim>::CellIterator &cell,
+                    const Visitor &visitor)
+    {
+      const auto index = grid.lattice.cell_index(cell->center());
+      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, const Point<dim> &x, const double volume) {
+        if (grid.lattice.cell_index(x) == index)
+          visitor(i, x, volume);
+      });
+    }
+
+    /** Throws unless all points of the body lie in the grid. Looks beyond the grid's faces only; all ranks alike. */
+    template <int dim>
+    void check_inside(const Grid<dim> &grid, const Body<dim> &body)
+    {
+      constexpr double far  = 1e300;
+      const auto       look = [&](const unsigned int, const Point<dim> &x, const double) {
+        bool is_inside = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
+        if (!is_inside)
+          throw EntryError(body.get_section_name(), body.shape->position_entry(),
+                                 "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
+                                   to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
+                                   ", upper faces excluded. Move the body, or enlarge the grid.");
+      };
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        Point<dim> lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = -far;
+          upper[d] = far;
+        }
+        (face % 2 == 0 ? upper : lower)[face / 2] = (face % 2 == 0 ? grid.lower : grid.upper)[face / 2];
+        body.shape->visit(BoundingBox<dim>({lower, upper}), look);
+      }
+    }
+
+    /** The home's particles were many small pieces, which the C library would keep for later. */
+    void return_free_memory()
+    {
+#ifdef __GLIBC__
+      malloc_trim(0);
+#endif
+    }
+  } // namespace
+
+  template <int dim>
+  unsigned int Particles<dim>::count(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                                     const typename Grid<dim>::CellIterator &cell)
+  {
+    unsigned int n = 0;
+    for (const auto &body : bodies)
+      visit_cell(grid, *body, cell, [&](auto...) { ++n; });
+    return n;
+  }
+
+  template <int dim>
+  void Particles<dim>::create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                              const std::vector<std::unique_ptr<Material>> &materials)
+  {
+    this->grid = &grid;
+    mapping    = std::make_unique<MappingCartesian<dim>>();
+    home = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, *mapping, this->n_columns());
+
+    // A rank's share and some more: what is reserved too much is never touched, and growing step by step costs time.
+    double n_indices = 0;
+    for (const auto &body : bodies)
+      n_indices += body->shape->n_indices();
+    this->reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
+    // The home is emptied by portions that fit into the cache.
+    constexpr unsigned int portion = 1 << 14;
+    unsigned int           n_home  = 0;
+
+    std::vector<double>        properties(this->n_columns());
+    std::vector<std::uint64_t> n_created(bodies.size(), 0);
+    std::uint64_t              next_id      = 0;
+    double                     largest_mass = 0;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      Body<dim> &body = *bodies[b];
+      check_inside(grid, body);
+      body.first_id = next_id;
+      next_id += body.shape->n_indices();
+      AssertThrow(
+        next_id <= std::numeric_limits<types::particle_index>::max(),
+        InputError("The bodies have more particles than this deal.II can number. Use one with 64-bit indices."));
+      body_begin.push_back(body.first_id);
+      body_material.push_back(body.material);
+      for (const auto &cell : grid.triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {
+            const Point<dim> location = grid.lattice.inside_cell(x);
+            body.initialize(x, volume, *materials[body.material], *this, properties);
+            home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,
+                                  cell, make_array_view(properties));
+            largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
+            ++n_created[b];
+            if (++n_home == portion)
+            {
+              load(n_home);
+              n_home = 0;
+            }
+          });
+    }
+    load(n_home);
+
+    Utilities::MPI::sum(n_created, grid.communicator, n_created);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      if (n_created[b] == 0)
+        throw EntryError(
+          bodies[b]->get_section_name(), bodies[b]->shape->position_entry(),
+          "the body is empty: no particle lies in it. Check its corners, its lattice offset or its particles per cell.");
+      n_global += n_created[b];
+    }
+    // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
+    grid.mass_floor                = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
+    const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
+    this->material_begin.assign(n_materials + 1, 0);
+    sort();
+    return_free_memory();
+  }
+
+  template <int dim>
+  void Particles<dim>::load(const unsigned int n)
+  {
+    unsigned int p = this->size();
+    this->resize(p + n);
+    for (auto &particle : *home)
+    {
+      this->id[p]           = particle.get_id();
+      this->body[p]         = body_of(this->id[p]);
+      const auto properties = particle.get_properties();
+      for (unsigned int c = 0; c < this->n_columns(); ++c)
+        this->column(c)[p] = properties[c];
+      ++p;
+    }
+    AssertDimension(p, this->size());
+    home->clear();
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template unsigned int Particles<dim>::count(const Grid<dim> &, const std::vector<std::unique_ptr<Body<dim>>> &,      \
+                                              const typename Grid<dim>::CellIterator &);                               \
+  template void         Particles<dim>::create(Grid<dim> &, std::vector<std::unique_ptr<Body<dim>>> &,                 \
+                                               const std::vector<std::unique_ptr<Material>> &);                        \
+  template void         Particles<dim>::load(const unsigned int);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
