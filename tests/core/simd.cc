@@ -114,7 +114,23 @@ namespace
       for (int l = 0; l < width; ++l)
         for (int i = 0; i < 4; ++i)
           error += four[i][l] != matrix[4 * l + i];
+      Number back[8];
+      vectors_to_lanes<width>(columns, back);
+      for (int i = 0; i < 8; ++i)
+        for (int l = 0; l < width; ++l)
+          error += back[i][l] != rows[i][l];
       check(name + "transposes", error, 0.5);
+    }
+
+    {
+      double     error = 0;
+      const auto pairs = Number::template load_repeated<2>(numbers + 1), fours = Number::template load_repeated<4>(numbers);
+      for (int l = 0; l < width; ++l)
+        error += (pairs[l] != numbers[1 + l % 2]) + (fours[l] != numbers[l % 4]);
+      if constexpr (width >= 4)
+        for (int l = 0; l < 4; ++l)
+          error += Number::load(numbers).first_four()[l] != numbers[l];
+      check(name + "repeated loads", error, 0.5);
     }
 
     // deal.II's tensors of these numbers are one tensor a lane.

@@ -51,6 +51,13 @@ namespace Talus
         result |= mask[l];
       return result != 0;
     }
+    // A register of x[0], ..., x[count - 1], x[0], ...; if it is shorter than that, of its first ones.
+    template <int count, class Double>
+    [[gnu::always_inline]] inline void repeat(const double *x, Double &result)
+    {
+      for (unsigned int l = 0; l < sizeof(result) / sizeof(double); ++l)
+        result[l] = x[l % count];
+    }
 #ifdef __SSE2__
     inline bool any_lane(const Register<2>::Integer &mask) { return _mm_movemask_pd((__m128d)mask) != 0; }
 #endif
@@ -60,6 +67,31 @@ namespace Talus
 #ifdef __AVX__
     inline bool                any_lane(const Register<4>::Integer &mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
     inline Register<4>::Double floor_lanes(const Register<4>::Double x) { return _mm256_floor_pd(x); }
+#endif
+#ifdef __AVX__
+    template <>
+    [[gnu::always_inline]] inline void repeat<2>(const double *x, Register<4>::Double &result)
+    {
+      result = _mm256_broadcast_pd(reinterpret_cast<const __m128d *>(x)); // needs no alignment
+    }
+    template <>
+    [[gnu::always_inline]] inline void repeat<4>(const double *x, Register<4>::Double &result)
+    {
+      result = _mm256_loadu_pd(x);
+    }
+#endif
+#ifdef __AVX512DQ__
+    // The forms without a mask warn of an uninitialized value in GCC 12.
+    template <>
+    [[gnu::always_inline]] inline void repeat<2>(const double *x, Register<8>::Double &result)
+    {
+      result = _mm512_maskz_broadcast_f64x2(0xff, _mm_loadu_pd(x));
+    }
+    template <>
+    [[gnu::always_inline]] inline void repeat<4>(const double *x, Register<8>::Double &result)
+    {
+      result = _mm512_maskz_broadcast_f64x4(0xff, _mm256_loadu_pd(x));
+    }
 #endif
 #ifdef __AVX512F__
     inline bool any_lane(const Register<8>::Integer &mask)
@@ -150,6 +182,25 @@ namespace Talus
       return result;
     }
     void store(double *x) const { std::memcpy(x, part, sizeof(part)); }
+
+    /** The first `count` doubles from `x`, again and again: lane l is x[l % count]. */
+    template <int count>
+    [[gnu::always_inline]] static Simd load_repeated(const double *x)
+    {
+      static_assert(count == 2 || count == 4, "see internal::repeat");
+      Simd result;
+      for (int i = 0; i < n_parts; ++i)
+        internal::repeat<count>(x + i * n_part % count, result.part[i]);
+      return result;
+    }
+
+    /** The first four lanes, of more. */
+    Simd<4> first_four() const
+    {
+      Simd<4> result;
+      std::memcpy(result.part, part, sizeof(result.part));
+      return result;
+    }
 
     /** Lane l is x[index[l]]. */
     template <typename Index>

@@ -53,6 +53,22 @@ namespace Talus
     }
   }
 
+  /** The way back: from one vector of eight for each of `width` particles to eight numbers of all of them. */
+  template <int width>
+  [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<8> (&columns)[width], Simd<width> (&rows)[8])
+  {
+    static_assert(width <= native_width, "a batch must fit a register");
+    for (int block = 0; block < 8 / width; ++block)
+    {
+      typename Simd<width>::Part part[width];
+      for (int l = 0; l < width; ++l)
+        std::memcpy(&part[l], columns[l].data() + block * width, sizeof(part[l]));
+      internal::transpose_blocks<width, width>(part);
+      for (int i = 0; i < width; ++i)
+        rows[block * width + i].part[0] = part[i];
+    }
+  }
+
   /** From one vector of four for each of `width` particles to four numbers of all of them. */
   template <int width>
   [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<4> (&columns)[width], Simd<width> (&rows)[4])

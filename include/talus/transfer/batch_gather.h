@@ -8,19 +8,28 @@
 namespace Talus
 {
   /**
-   * What the particles of a batch gather from their nodes. The lanes are the four
-   * numbers of a node from the velocity on; the sums are transposed to one particle in each lane.
+   * What the particles of a batch gather from their nodes. A node's numbers from the velocity on stand in a register
+   * several times, so that one multiply-add sums the velocity, its derivative along x and, where the scheme wants it,
+   * its moment along x. What the other axes add is summed apart, by rows and planes where the stencil is a product.
+   * In the end the sums are transposed to one particle in each lane.
    */
   template <int dim, class Scheme, class Function>
   class BatchGather
   {
-    static constexpr unsigned int n     = Function::n;
-    static constexpr unsigned int width = native_width;
+    static constexpr unsigned int n         = Function::n;
+    static constexpr unsigned int width     = native_width;
+    static constexpr bool         gathers_B = Scheme::gathers_B;
+
+    // The numbers of a node that are read, velocity first; in 2D they include the increment.
+    static constexpr unsigned int group             = dim == 2 && !Scheme::gathers_increment ? 2 : 4;
+    static constexpr bool         has_own_increment = Scheme::gathers_increment && dim == 3;
+    static constexpr bool         has_own_moment    = gathers_B && group == 4; // a register holds but two groups then
 
     using Fields  = NodalFields<dim>;
-    using Moments = LatticeMoments<dim, n, Scheme::gathers_B>;
+    using Moments = LatticeMoments<dim, n, gathers_B>;
     using Number  = Simd<native_width>;
-    using Motion  = Simd<4>; // the four from the velocity on
+    using Groups  = Simd<8>; // the velocity, its derivative along x, its moment along x
+    using Motion  = Simd<4>; // one group
 
   public:
     /** The sums of the first `size` particles, the last one's in all further lanes. */
@@ -28,12 +37,15 @@ namespace Talus
                                                                const LatticeBatch<dim, n> &stencil,
                                                                const unsigned int size, const Fields &fields)
     {
-      const Moments moments(stencil);
-      Sums          sums;
-      for (unsigned int l = 0; l < size; ++l)
-        if (stencil.is_product)
+      Sums sums;
+      if (stencil.is_product)
+      {
+        const Moments moments(stencil);
+        for (unsigned int l = 0; l < size; ++l)
           gather_product(moments, lattice, stencil, l, fields, sums);
-        else
+      }
+      else
+        for (unsigned int l = 0; l < size; ++l)
           gather_list(lattice, stencil, l, fields, sums);
       for (unsigned int l = size; l < width; ++l)
         sums.repeat(l - 1, l);
@@ -41,20 +53,67 @@ namespace Talus
     }
 
   private:
+    /** The sums of one particle, of a plane or of a row of its stencil. */
+    struct Sum
+    {
+      Groups groups = 0.;
+      Motion gradient[dim]; // but along x
+      Motion moment[dim];   // along x only if has_own_moment
+      Motion increment = 0.;
+
+      Sum()
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient[d] = moment[d] = 0.;
+      }
+
+      /** Adds what is summed along the axes before `axis`. */
+      [[gnu::always_inline]] void add(const Sum &other, const unsigned int axis, const double weight,
+                                      const double slope, const double lever)
+      {
+        groups += weight * other.groups;
+        for (unsigned int d = 1; d < axis; ++d)
+          gradient[d] += weight * other.gradient[d];
+        gradient[axis] += slope * other.groups.first_four();
+        if constexpr (gathers_B)
+        {
+          for (unsigned int d = has_own_moment ? 0 : 1; d < axis; ++d)
+            moment[d] += weight * other.moment[d];
+          moment[axis] += lever * other.groups.first_four();
+        }
+        if constexpr (has_own_increment)
+          increment += weight * other.increment;
+      }
+    };
+
     /** What each particle of a batch gathers. */
     struct Sums
     {
-      static constexpr bool has_own_increment = Scheme::gathers_increment && dim == 3; // in 2D it fits into `value`
+      Groups groups[width];
+      Motion gradient[dim][width], moment[dim][width], increment[width];
 
-      Motion value[width], gradient[dim][width], moment[dim][width], increment[width];
+      [[gnu::always_inline]] void set(const unsigned int l, const Sum &sum)
+      {
+        groups[l] = sum.groups;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          if (d > 0)
+            gradient[d][l] = sum.gradient[d];
+          if (gathers_B && (d > 0 || has_own_moment))
+            moment[d][l] = sum.moment[d];
+        }
+        if constexpr (has_own_increment)
+          increment[l] = sum.increment;
+      }
 
       void repeat(const unsigned int from, const unsigned int to)
       {
-        value[to] = value[from];
+        groups[to] = groups[from];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          gradient[d][to] = gradient[d][from];
-          if constexpr (Scheme::gathers_B)
+          if (d > 0)
+            gradient[d][to] = gradient[d][from];
+          if (gathers_B && (d > 0 || has_own_moment))
             moment[d][to] = moment[d][from];
         }
         if constexpr (has_own_increment)
@@ -64,150 +123,127 @@ namespace Talus
       [[gnu::always_inline]] Gathered<dim, Number> gathered() const
       {
         Gathered<dim, Number> sum;
-        Number                rows[4];
-        vectors_to_lanes<width>(value, rows);
+        Number                rows[8];
+        vectors_to_lanes<width>(groups, rows);
         for (unsigned int d = 0; d < dim; ++d)
         {
-          sum.velocity[d] = rows[d];
+          sum.velocity[d]  = rows[d];
+          sum.grad_v[d][0] = rows[group + d];
           if constexpr (Scheme::gathers_increment && dim == 2)
             sum.increment[d] = rows[dim + d];
+          if constexpr (gathers_B && !has_own_moment)
+            sum.B[d][0] = rows[2 * group + d];
         }
+        Number four[4];
         for (unsigned int e = 0; e < dim; ++e)
         {
-          vectors_to_lanes<width>(gradient[e], rows);
-          for (unsigned int d = 0; d < dim; ++d)
-            sum.grad_v[d][e] = rows[d];
-          if constexpr (Scheme::gathers_B)
+          if (e > 0)
           {
-            vectors_to_lanes<width>(moment[e], rows);
+            vectors_to_lanes<width>(gradient[e], four);
             for (unsigned int d = 0; d < dim; ++d)
-              sum.B[d][e] = rows[d];
+              sum.grad_v[d][e] = four[d];
+          }
+          if (gathers_B && (e > 0 || has_own_moment))
+          {
+            vectors_to_lanes<width>(moment[e], four);
+            for (unsigned int d = 0; d < dim; ++d)
+              sum.B[d][e] = four[d];
           }
         }
         if constexpr (has_own_increment)
         {
-          vectors_to_lanes<width>(increment, rows);
+          vectors_to_lanes<width>(increment, four);
           for (unsigned int d = 0; d < dim; ++d)
-            sum.increment[d] = rows[d];
+            sum.increment[d] = four[d];
         }
         return sum;
       }
     };
 
+    /** The factors of a node for the groups of a register. */
+    [[gnu::always_inline]] static Groups spread(const double weight, const double slope, const double lever)
+    {
+      const double index[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+      const Groups lane     = Groups::load(index);
+      Groups       result   = slope;
+      if constexpr (gathers_B && !has_own_moment)
+        result = select(lane < Groups(2. * group), result, Groups(lever));
+      return select(lane < Groups(group), Groups(weight), result);
+    }
+
+    [[gnu::always_inline]] static Groups load(const double *velocity)
+    {
+      return Groups::template load_repeated<group>(velocity);
+    }
+
     [[gnu::always_inline]] static void gather_product(const Moments &moments, const Lattice<dim> &lattice,
                                                       const LatticeBatch<dim, n> &stencil, const unsigned int l,
                                                       const Fields &fields, Sums &sums)
     {
-      const auto weight = [&](const unsigned int d, const unsigned int k) {
-        return Motion(stencil.weight[d][k].data()[l]);
-      };
-      const auto slope = [&](const unsigned int d, const unsigned int k) {
-        return Motion(stencil.derivative[d][k].data()[l]);
-      };
+      const auto weight = [&](const unsigned int d, const unsigned int k) { return stencil.weight[d][k].data()[l]; };
+      const auto slope = [&](const unsigned int d, const unsigned int k) { return stencil.derivative[d][k].data()[l]; };
       const auto lever = [&](const unsigned int d, const unsigned int k) {
-        return Motion(moments.moment[d][k].data()[l]);
+        return gathers_B ? moments.moment[d][k].data()[l] : 0.;
       };
-      constexpr bool       gathers_B = Scheme::gathers_B;
-      const std::ptrdiff_t stride_y  = Fields::stride * lattice.stride[1],
-                           stride_z  = Fields::stride * lattice.stride[dim - 1];
-      const double *const first      = fields.at_place(stencil.first_node[l]);
+      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1],
+                           stride_z = Fields::stride * lattice.stride[dim - 1];
+      const double *const first     = fields.at_place(stencil.first_node[l]);
 
-      Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
+      Groups along_x[n];
+      for (unsigned int a = 0; a < n; ++a)
+        along_x[a] = spread(weight(0, a), slope(0, a), lever(0, a));
+
+      Sum sum;
       for (unsigned int c = 0; c < (dim == 3 ? n : 1); ++c)
       {
-        // Sums over a plane; in 2D there is one.
-        Motion plane = 0., plane_gradient[2] = {0., 0.}, plane_moment[2] = {0., 0.}, plane_increment = 0.;
+        Sum plane;
         for (unsigned int b = 0; b < n; ++b)
         {
-          Motion              row = 0., row_gradient = 0., row_moment = 0., row_increment = 0.;
+          Sum                 row;
           const double *const node = first + b * stride_y + (dim == 3 ? c * stride_z : 0);
           for (unsigned int a = 0; a < n; ++a)
           {
             const double *values = node + a * Fields::stride;
-            const Motion  v      = Motion::load(values + Fields::velocity);
-            row += weight(0, a) * v;
-            row_gradient += slope(0, a) * v;
-            if constexpr (gathers_B)
-              row_moment += lever(0, a) * v;
-            if constexpr (Sums::has_own_increment)
-              row_increment += weight(0, a) * Motion::load(values + Fields::increment);
+            row.groups += along_x[a] * load(values + Fields::velocity);
+            if constexpr (has_own_moment)
+              row.moment[0] += lever(0, a) * Motion::load(values + Fields::velocity);
+            if constexpr (has_own_increment)
+              row.increment += weight(0, a) * Motion::load(values + Fields::increment);
           }
-          plane += weight(1, b) * row;
-          plane_gradient[0] += weight(1, b) * row_gradient;
-          plane_gradient[1] += slope(1, b) * row;
-          if constexpr (gathers_B)
-          {
-            plane_moment[0] += weight(1, b) * row_moment;
-            plane_moment[1] += lever(1, b) * row;
-          }
-          if constexpr (Sums::has_own_increment)
-            plane_increment += weight(1, b) * row_increment;
+          plane.add(row, 1, weight(1, b), slope(1, b), lever(1, b));
         }
         if constexpr (dim == 2)
-        {
-          value = plane;
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            gradient[d] = plane_gradient[d];
-            moment[d]   = plane_moment[d];
-          }
-        }
+          sum = plane;
         else
-        {
-          value += weight(dim - 1, c) * plane;
-          gradient[0] += weight(dim - 1, c) * plane_gradient[0];
-          gradient[1] += weight(dim - 1, c) * plane_gradient[1];
-          gradient[2] += slope(dim - 1, c) * plane;
-          if constexpr (gathers_B)
-          {
-            moment[0] += weight(dim - 1, c) * plane_moment[0];
-            moment[1] += weight(dim - 1, c) * plane_moment[1];
-            moment[2] += lever(dim - 1, c) * plane;
-          }
-          if constexpr (Sums::has_own_increment)
-            increment += weight(dim - 1, c) * plane_increment;
-        }
+          sum.add(plane, 2, weight(dim - 1, c), slope(dim - 1, c), lever(dim - 1, c));
       }
-      sums.value[l] = value;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        sums.gradient[d][l] = gradient[d];
-        if constexpr (gathers_B)
-          sums.moment[d][l] = moment[d];
-      }
-      if constexpr (Sums::has_own_increment)
-        sums.increment[l] = increment;
+      sums.set(l, sum);
     }
 
-    static void gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil, const unsigned int l,
-                            const Fields &fields, Sums &sums)
+    // Apart from the loop for products, which needs the registers.
+    [[gnu::noinline]] static void gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                                              const unsigned int l, const Fields &fields, Sums &sums)
     {
-      Motion value = 0., gradient[3] = {0., 0., 0.}, moment[3] = {0., 0., 0.}, increment = 0.;
+      Sum sum;
       for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
         const double *values = fields.at_place(place), *sign = Fields::mirror(beyond);
-        Motion        v   = Motion::load(values + Fields::velocity);
-        const double  phi = stencil.value[i].data()[l];
+        const double  phi   = stencil.value[i].data()[l];
+        const auto    lever = [&](const unsigned int d) { return phi * stencil.offset[d][k[d]].data()[l]; };
+        Groups        v     = load(values + Fields::velocity);
         if (beyond != 0)
-          v *= Motion::load(sign + Fields::velocity);
-        value += phi * v;
+          v *= load(sign + Fields::velocity);
+        sum.groups += spread(phi, stencil.gradient[0][i].data()[l], gathers_B ? lever(0) : 0.) * v;
         for (unsigned int d = 0; d < dim; ++d)
         {
-          gradient[d] += stencil.gradient[d][i].data()[l] * v;
-          if constexpr (Scheme::gathers_B)
-            moment[d] += (phi * stencil.offset[d][k[d]].data()[l]) * v;
+          if (d > 0)
+            sum.gradient[d] += stencil.gradient[d][i].data()[l] * v.first_four();
+          if (gathers_B && (d > 0 || has_own_moment))
+            sum.moment[d] += lever(d) * v.first_four();
         }
-        if constexpr (Sums::has_own_increment)
-          increment += phi * Motion::load(sign + Fields::increment) * Motion::load(values + Fields::increment);
+        if constexpr (has_own_increment)
+          sum.increment += phi * Motion::load(sign + Fields::increment) * Motion::load(values + Fields::increment);
       });
-      sums.value[l] = value;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        sums.gradient[d][l] = gradient[d];
-        if constexpr (Scheme::gathers_B)
-          sums.moment[d][l] = moment[d];
-      }
-      if constexpr (Sums::has_own_increment)
-        sums.increment[l] = increment;
+      sums.set(l, sum);
     }
   };
 } // namespace Talus
