@@ -11,6 +11,7 @@ DECLARE(hydrostatic)
 DECLARE(body_errors)
 DECLARE(synchronise)
 DECLARE(far_away)
+DECLARE(lost)
 DECLARE(drift)
 DECLARE(outside)
 DECLARE(surfaces)
@@ -34,6 +35,8 @@ int main(int argc, char **argv)
                     {"synchronise 3D", synchronise<3>},
                     {"far away 2D", far_away<2>},
                     {"far away 3D", far_away<3>},
+                    {"lost 2D", lost<2>},
+                    {"lost 3D", lost<3>},
                     {"drift 2D", drift<2>},
                     {"drift 3D", drift<3>},
                     {"outside 2D", outside<2>},

@@ -150,6 +150,29 @@ void far_away()
   check_true("kept, though its rank did not know the cell", sum(set.size()) == set.n_global && is_canonical(setup));
 }
 
+/** A particle that no rank's cells hold, which relocate() would have named before, ends the run in one sentence. */
+template <int dim>
+void lost()
+{
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
+    return; // nothing to search
+  Setup<dim> setup(text<dim>("quadratic B-spline"));
+  auto      &set                    = setup.particles;
+  set.component(set.position, 0)[0] = 5; // on every rank: all must stop
+  std::string what                  = "nothing";
+  try
+  {
+    set.migrate();
+  }
+  catch (const RunError &error)
+  {
+    what = error.what();
+  }
+  check_true("a particle lost between ranks is named",
+             what.find("Particle " + std::to_string(set.id[0]) + " at (5,") != std::string::npos &&
+               what.find("lost between ranks") != std::string::npos);
+}
+
 /**
  * How far a particle may go beyond its rank's cells: as far as the rank knows its nodes, which are those of the
  * neighbouring cells: h for linear, h/2 for quadratic and uGIMP (its stencil of three), 0 for cubic. On two ranks, which
@@ -210,5 +233,6 @@ void outside()
   template void name<3>();
 INSTANTIATE(synchronise)
 INSTANTIATE(far_away)
+INSTANTIATE(lost)
 INSTANTIATE(drift)
 INSTANTIATE(outside)
