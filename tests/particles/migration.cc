@@ -62,7 +62,7 @@ namespace
       for (unsigned int p = set.material_begin[m]; p < set.material_begin[m + 1]; ++p)
       {
         const auto cell = cell_of(setup, p);
-        holds           = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
+        holds = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
         if (p > set.material_begin[m])
         {
           const double shift = setup.kernel->shift();
@@ -175,8 +175,8 @@ void lost()
 
 /**
  * How far a particle may go beyond its rank's cells: as far as the rank knows its nodes, which are those of the
- * neighbouring cells: h for linear, h/2 for quadratic and uGIMP (its stencil of three), 0 for cubic. On two ranks, which
- * meet in the middle.
+ * neighbouring cells: h for linear, h/2 for quadratic and uGIMP (its stencil of three), 0 for cubic. On two ranks,
+ * which meet in the middle.
  */
 template <int dim>
 void drift()
