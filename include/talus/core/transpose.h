@@ -53,40 +53,26 @@ namespace Talus
     }
   }
 
-  /** The way back: from one vector of eight for each of `width` particles to eight numbers of all of them. */
-  template <int width>
-  [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<8> (&columns)[width], Simd<width> (&rows)[8])
+  /** The way back: from one vector of n for each of `width` particles to n numbers of all of them. */
+  template <int width, int n>
+  [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<n> (&columns)[width], Simd<width> (&rows)[n])
   {
-    static_assert(width <= native_width, "a batch must fit a register");
-    for (int block = 0; block < 8 / width; ++block)
+    static_assert(width <= native_width && width <= 2 * n, "a batch must fit a register, and half of one a vector");
+    using Part = typename Simd<width>::Part;
+    if constexpr (width == 2 * n)
     {
-      typename Simd<width>::Part part[width];
-      for (int l = 0; l < width; ++l)
-        std::memcpy(&part[l], columns[l].data() + block * width, sizeof(part[l]));
-      internal::transpose_blocks<width, width>(part);
-      for (int i = 0; i < width; ++i)
-        rows[block * width + i].part[0] = part[i];
-    }
-  }
-
-  /** From one vector of four for each of `width` particles to four numbers of all of them. */
-  template <int width>
-  [[gnu::always_inline]] inline void vectors_to_lanes(const Simd<4> (&columns)[width], Simd<width> (&rows)[4])
-  {
-    static_assert(width <= native_width, "a batch must fit a register");
-    if constexpr (width == 8)
-    {
-      for (int i = 0; i < 4; ++i)
-        rows[i].part[0] = __builtin_shufflevector(columns[i].part[0], columns[i + 4].part[0], 0, 1, 2, 3, 4, 5, 6, 7);
-      typename Simd<width>::Part part[4] = {rows[0].part[0], rows[1].part[0], rows[2].part[0], rows[3].part[0]};
-      internal::transpose_blocks<8, 4>(part);
-      for (int i = 0; i < 4; ++i)
+      static_assert(n == 4, "the lanes named below");
+      Part part[n];
+      for (int i = 0; i < n; ++i)
+        part[i] = __builtin_shufflevector(columns[i].part[0], columns[i + n].part[0], 0, 1, 2, 3, 4, 5, 6, 7);
+      internal::transpose_blocks<width, n>(part);
+      for (int i = 0; i < n; ++i)
         rows[i].part[0] = part[i];
     }
     else
-      for (int block = 0; block < 4 / width; ++block)
+      for (int block = 0; block < n / width; ++block)
       {
-        typename Simd<width>::Part part[width];
+        Part part[width];
         for (int l = 0; l < width; ++l)
           std::memcpy(&part[l], columns[l].data() + block * width, sizeof(part[l]));
         internal::transpose_blocks<width, width>(part);

@@ -32,23 +32,21 @@ namespace Talus
     using Motion  = Simd<4>; // one group
 
   public:
-    /** The sums of the first `size` particles, the last one's in all further lanes. */
+    /** The sums of a batch. Lanes that repeat a particle are gathered as well. */
     [[gnu::always_inline]] static Gathered<dim, Number> gather(const Lattice<dim>         &lattice,
                                                                const LatticeBatch<dim, n> &stencil,
-                                                               const unsigned int size, const Fields &fields)
+                                                               const Fields               &fields)
     {
       Sums sums;
       if (stencil.is_product)
       {
         const Moments moments(stencil);
-        for (unsigned int l = 0; l < size; ++l)
-          gather_product(moments, lattice, stencil, l, fields, sums);
+        for (unsigned int l = 0; l < width; ++l)
+          sums.set(l, gather_product(moments, lattice, stencil, l, fields));
       }
       else
-        for (unsigned int l = 0; l < size; ++l)
-          gather_list(lattice, stencil, l, fields, sums);
-      for (unsigned int l = size; l < width; ++l)
-        sums.repeat(l - 1, l);
+        for (unsigned int l = 0; l < width; ++l)
+          sums.set(l, gather_list(lattice, stencil, l, fields));
       return sums.gathered();
     }
 
@@ -104,20 +102,6 @@ namespace Talus
         }
         if constexpr (has_own_increment)
           increment[l] = sum.increment;
-      }
-
-      void repeat(const unsigned int from, const unsigned int to)
-      {
-        groups[to] = groups[from];
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          if (d > 0)
-            gradient[d][to] = gradient[d][from];
-          if (gathers_B && (d > 0 || has_own_moment))
-            moment[d][to] = moment[d][from];
-        }
-        if constexpr (has_own_increment)
-          increment[to] = increment[from];
       }
 
       [[gnu::always_inline]] Gathered<dim, Number> gathered() const
@@ -176,9 +160,9 @@ namespace Talus
       return Groups::template load_repeated<group>(velocity);
     }
 
-    [[gnu::always_inline]] static void gather_product(const Moments &moments, const Lattice<dim> &lattice,
-                                                      const LatticeBatch<dim, n> &stencil, const unsigned int l,
-                                                      const Fields &fields, Sums &sums)
+    [[gnu::always_inline]] static Sum gather_product(const Moments &moments, const Lattice<dim> &lattice,
+                                                     const LatticeBatch<dim, n> &stencil, const unsigned int l,
+                                                     const Fields &fields)
     {
       const auto weight = [&](const unsigned int d, const unsigned int k) { return stencil.weight[d][k].data()[l]; };
       const auto slope = [&](const unsigned int d, const unsigned int k) { return stencil.derivative[d][k].data()[l]; };
@@ -187,23 +171,19 @@ namespace Talus
       };
       const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1],
                            stride_z = Fields::stride * lattice.stride[dim - 1];
-      const double *const first     = fields.at_place(stencil.first_node[l]);
-
       Groups along_x[n];
       for (unsigned int a = 0; a < n; ++a)
         along_x[a] = spread(weight(0, a), slope(0, a), lever(0, a));
 
-      Sum sum;
-      for (unsigned int c = 0; c < (dim == 3 ? n : 1); ++c)
+      const auto plane_from = [&](const double *const node) __attribute__((always_inline))
       {
         Sum plane;
         for (unsigned int b = 0; b < n; ++b)
         {
-          Sum                 row;
-          const double *const node = first + b * stride_y + (dim == 3 ? c * stride_z : 0);
+          Sum row;
           for (unsigned int a = 0; a < n; ++a)
           {
-            const double *values = node + a * Fields::stride;
+            const double *values = node + b * stride_y + a * Fields::stride;
             row.groups += along_x[a] * load(values + Fields::velocity);
             if constexpr (has_own_moment)
               row.moment[0] += lever(0, a) * Motion::load(values + Fields::velocity);
@@ -212,17 +192,23 @@ namespace Talus
           }
           plane.add(row, 1, weight(1, b), slope(1, b), lever(1, b));
         }
-        if constexpr (dim == 2)
-          sum = plane;
-        else
-          sum.add(plane, 2, weight(dim - 1, c), slope(dim - 1, c), lever(dim - 1, c));
+        return plane;
+      };
+      const double *const first = fields.at_place(stencil.first_node[l]);
+      if constexpr (dim == 2)
+        return plane_from(first);
+      else
+      {
+        Sum sum;
+        for (unsigned int c = 0; c < n; ++c)
+          sum.add(plane_from(first + c * stride_z), 2, weight(2, c), slope(2, c), lever(2, c));
+        return sum;
       }
-      sums.set(l, sum);
     }
 
     // Apart from the loop for products, which needs the registers.
-    [[gnu::noinline]] static void gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
-                                              const unsigned int l, const Fields &fields, Sums &sums)
+    [[gnu::noinline]] static Sum gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
+                                             const unsigned int l, const Fields &fields)
     {
       Sum sum;
       for_each_node(lattice, stencil, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
@@ -243,7 +229,7 @@ namespace Talus
         if constexpr (has_own_increment)
           sum.increment += phi * Motion::load(sign + Fields::increment) * Motion::load(values + Fields::increment);
       });
-      sums.set(l, sum);
+      return sum;
     }
   };
 } // namespace Talus

@@ -52,7 +52,7 @@ namespace Talus
         prefetch_gather(arrays, batch.p);
         const auto x = load_vector<dim>(batch, arrays.position);
         evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
-        const auto sum = BatchGather<dim, Scheme, Function>::gather(lattice, stencil, batch.size(), fields);
+        const auto sum = BatchGather<dim, Scheme, Function>::gather(lattice, stencil, fields);
         store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
         store_matrix<dim>(batch, arrays.grad_v, sum.grad_v);
         scheme.update(arrays, batch, sum);
