@@ -30,6 +30,7 @@ TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
          "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
          "quadratic-tpic-everywhere-neo"]
+NOT_STEPS = {"set-up", "output", "finite element reference", "total"}
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 
 
@@ -43,6 +44,7 @@ class Row:
     wall: list = dataclasses.field(default_factory=list)
     processor: list = dataclasses.field(default_factory=list)
     busiest: list = dataclasses.field(default_factory=list)  # of one rank, outside waiting for others
+    parts: list = dataclasses.field(default_factory=list)    # the parts of the longer run's steps, by its own clock
     messages: float = 0  # that a rank sends in a step
     sent: float = 0      # by a rank in a step [kB]
     particles: int = 0
@@ -75,7 +77,7 @@ def without_elasticity(prm, directory):
 
 
 def timed_run(row, settings, n_steps, ranks):
-    """Wall and processor time, and that of the busiest rank [s], of one run; notes what the program says of itself."""
+    """Wall and processor time, that of the busiest rank, and the steps by the program's own clock [s]."""
     start = time.perf_counter()
     process = subprocess.Popen(
         runs.command(row.prm, {**row.settings, **settings, "Run/Number of steps": n_steps}, ranks), text=True,
@@ -97,14 +99,15 @@ def timed_run(row, settings, n_steps, ranks):
     memory = re.search(r"bytes per particle: (\S+) now, (\S+) at most", output)
     if memory:
         row.bytes_per_particle, row.peak_bytes = float(memory[1]), float(memory[2])
-    row.phases = {name.strip(): float(share) for name, share in
-                  re.findall(r"^  (\S.*?) +[\d.]+ s +([\d.]+) %$", output, re.M)}
+    table = re.findall(r"^  (\S.*?) +([\d.]+) s +([\d.]+) %$", output, re.M)
+    row.phases = {name.strip(): float(share) for name, _, share in table}
+    parts = sum(float(seconds) for name, seconds, _ in table if name.strip() not in NOT_STEPS)
     processor = usage.ru_utime + usage.ru_stime
     busiest = re.search(r"busiest rank: (\S+) s", output)
     sent = re.search(r"a rank sends (\S+) messages and (\S+) kB", output)
     if sent:
         row.messages, row.sent = float(sent[1]), float(sent[2])
-    return wall, processor, float(busiest[1]) if busiest else processor
+    return wall, processor, float(busiest[1]) if busiest else processor, parts
 
 
 def measure(rows, arguments, settings):
@@ -117,6 +120,7 @@ def measure(rows, arguments, settings):
             row.wall.append(1e9 * (long[0] - short[0]) / work)
             row.processor.append(1e9 * (long[1] - short[1]) / work)
             row.busiest.append(1e9 * (long[2] - short[2]) / work)
+            row.parts.append(1e9 * long[3] / (2 * work))
             if not arguments.csv:
                 print(f"  repeat {repeat + 1} of {arguments.repeats}, {row.name} {row.dim}D: {row.wall[-1]:.1f} ns "
                       f"wall, {row.processor[-1]:.1f} ns processor", flush=True)
@@ -179,12 +183,13 @@ def choose_rows(arguments):
 
 
 def report(rows, arguments):
-    print(f"\n{'row':32} dim   ns median    min    max  processor   B/particle   peak   ns by bandwidth")
+    print(f"\n{'row':32} dim   ns median    min    max  processor   in steps   B/particle   peak   ns by bandwidth")
     speed = bandwidth()
     for row in rows:
         print(f"{row.name:32} {row.dim}D   {statistics.median(row.wall):9.1f} {min(row.wall):6.1f} {max(row.wall):6.1f}"
-              f" {statistics.median(row.processor):10.1f} {row.bytes_per_particle:12.0f} {row.peak_bytes:6.0f}"
-              f" {1e9 * traffic(row.dim) / speed:17.1f}")
+              f" {statistics.median(row.processor):10.1f} {statistics.median(row.parts):10.1f}"
+              f" {row.bytes_per_particle:12.0f} {row.peak_bytes:6.0f} {1e9 * traffic(row.dim) / speed:17.1f}")
+    print("In steps: the sum of the parts of a step by the program's own clock, free of the noise of set-up.")
     print(f"\nMedian of {arguments.repeats}, {arguments.ranks} rank(s). One core moves {speed / 1e9:.1f} GB/s.")
     if arguments.ranks > 1:
         print("Busiest rank's processor time outside waiting, per particle of all ranks [ns]; what a rank sends in a step:")
