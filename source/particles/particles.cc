@@ -178,7 +178,6 @@ namespace Talus
       for (unsigned int c = 0; c < this->n_columns(); ++c)
         this->column(c)[p] = arrivals[i][1 + c];
     }
-    brings_new_nodes = false;
     for (unsigned int i = 0; i < arrivals.size() && !brings_new_nodes; ++i)
       brings_new_nodes =
         !grid->is_active_around(first_node(i < n_filled ? leavers[i] : n_before + i - n_filled), n_stencil_nodes);

@@ -1,5 +1,7 @@
 #include <talus/steppers/upkeep.h>
 
+#include <talus/core/traffic.h>
+
 namespace Talus
 {
   using namespace dealii;
@@ -14,8 +16,9 @@ namespace Talus
     if (now.needs_synchronise)
     {
       model.particles.migrate();
-      has_new_nodes = Utilities::MPI::logical_or(model.particles.brings_new_nodes, model.grid.communicator);
       ++n_migrations;
+      const Traffic::Wait wait;
+      has_new_nodes = Utilities::MPI::logical_or(model.particles.brings_new_nodes, model.grid.communicator);
     }
     // A stale order costs little for a few cells of drift, and a sort as much as a step or two.
     if (since_sort > 2)

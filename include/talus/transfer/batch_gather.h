@@ -8,7 +8,7 @@
 namespace Talus
 {
   /**
-   * What the particles of a batch gather from their nodes. A node's numbers from the velocity on stand in a register
+   * What the particles of a batch gather from their nodes, Eqs. (23), (25), (26): see Gathered. A node's numbers from the velocity on stand in a register
    * several times, so that one multiply-add sums the velocity, its derivative along x and, where the scheme wants it,
    * its moment along x. What the other axes add is summed apart, by rows and planes where the stencil is a product.
    * In the end the sums are transposed to one particle in each lane.
@@ -206,7 +206,7 @@ namespace Talus
       }
     }
 
-    // Apart from the loop for products, which needs the registers.
+    // Not inlined: the loop for products needs the registers.
     [[gnu::noinline]] static Sum gather_list(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                              const unsigned int l, const Fields &fields)
     {
