@@ -8,10 +8,12 @@
 namespace Talus
 {
   /**
-   * What the particles of a batch gather from their nodes, Eqs. (23), (25), (26): see Gathered. A node's numbers from the velocity on stand in a register
-   * several times, so that one multiply-add sums the velocity, its derivative along x and, where the scheme wants it,
-   * its moment along x. What the other axes add is summed apart, by rows and planes where the stencil is a product.
-   * In the end the sums are transposed to one particle in each lane.
+   * What the particles of a batch gather from their nodes, Eqs. (23), (25), (26): see
+   * Gathered. A node's numbers from the velocity on stand in a register several times,
+   * so that one multiply-add sums the velocity, its derivative along x and, where the
+   * scheme wants it, its moment along x. What the other axes add is summed apart, by
+   * rows and planes where the stencil is a product. In the end the sums are transposed
+   * to one particle in each lane.
    */
   template <int dim, class Scheme, class Function>
   class BatchGather
