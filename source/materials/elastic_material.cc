@@ -27,7 +27,7 @@ namespace Talus
   void ElasticMaterial::wave_speeds(const MaterialRange &range, double *speeds) const
   {
     evaluate_points(range, speeds, [M = bulk_modulus() + 4. / 3. * shear_modulus()](const auto &point) {
-      return sqrt(M / point.density()); // Eq. (34)
+      return sqrt(M * point.specific_volume()); // Eq. (34)
     });
   }
 

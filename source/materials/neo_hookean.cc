@@ -31,7 +31,7 @@ namespace Talus
       Number largest = 0.;
       for (unsigned int i = 0; i < 3; ++i)
         largest = max(largest, Number(abs(b[i][0]) + abs(b[i][1]) + abs(b[i][2])));
-      return sqrt((lambda * inverse_J + mu * (1. + largest)) * inverse_J / point.density());
+      return sqrt((lambda * inverse_J + mu * (1. + largest)) * inverse_J * point.specific_volume());
     });
   }
 

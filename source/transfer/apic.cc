@@ -84,10 +84,10 @@ namespace Talus
         return C;
       }
 
-      /** The same where D is diagonal. */
-      template <class Batch, typename Number = typename Batch::Number>
-      [[gnu::always_inline]] Tensor<2, dim, Number> affine(const TransferArrays<dim> &arrays, const Batch &batch,
-                                                           const Tensor<1, dim, Number> &D, const double h) const
+      /** The same where D is diagonal; its numbers may be the same for the whole batch. */
+      template <class Batch, typename Number>
+      [[gnu::always_inline]] auto affine(const TransferArrays<dim> &arrays, const Batch &batch,
+                                         const Tensor<1, dim, Number> &D, const double h) const
       {
         const Number smallest = 1e-12 * h * h;
         auto         C        = load_matrix<dim>(batch, arrays.B);

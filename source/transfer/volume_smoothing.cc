@@ -108,10 +108,12 @@ namespace Talus
       template <class Body>
       void for_each_stencil(const Body &body)
       {
-        LatticeBatch<dim, n> stencil;
+        const BatchEvaluator<dim, Function> evaluator(function, lattice, treatment);
+        LatticeBatch<dim, n>                stencil;
         for_each_batch(range.begin, range.end, [&](const auto batch) {
-          evaluate_batch(function, lattice, treatment, load_vector<dim>(batch, position), stencil);
-          if (stencil.is_product)
+          evaluator.locate(load_vector<dim>(batch, position), stencil);
+          evaluator.evaluate(stencil);
+          if (!stencil.is_at_face)
           {
             LatticeFactors<dim> factors;
             for (unsigned int d = 0; d < dim; ++d)

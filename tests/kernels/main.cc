@@ -13,6 +13,7 @@ void definition();
 template <int dim>
 void closed_form();
 void negative_weights();
+void polynomials();
 
 int main(int argc, char **argv)
 {
@@ -29,5 +30,6 @@ int main(int argc, char **argv)
                     {"definition 3D", definition<3>},
                     {"closed form 2D", closed_form<2>},
                     {"closed form 3D", closed_form<3>},
-                    {"negative weights", negative_weights}});
+                    {"negative weights", negative_weights},
+                    {"polynomials", polynomials}});
 }

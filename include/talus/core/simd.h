@@ -261,6 +261,11 @@ namespace Talus
 
   // Plain numbers know the same words, so that a formula can be written once for both.
   inline double select(const bool condition, const double a, const double b) { return condition ? a : b; }
+  template <int width>
+  Simd<width> select(const bool condition, const Simd<width> &a, const Simd<width> &b)
+  {
+    return condition ? a : b;
+  }
   inline bool   any(const bool condition) { return condition; }
   inline double min(const double a, const double b) { return a < b ? a : b; }
   inline double max(const double a, const double b) { return a > b ? a : b; }

@@ -26,6 +26,19 @@ namespace Talus
       derivative[0] = -1.;
       derivative[1] = 1.;
     }
+
+    static constexpr bool   is_polynomial = true;
+    static constexpr double centre        = 0;
+    template <typename Values>
+    static void to_polynomial(Values &u)
+    {
+      u[1] -= u[0];
+    }
+    template <typename Number>
+    static Number excess(const Number &t)
+    {
+      return t * (1. - t);
+    }
   };
 
   /** Quadratic B-spline, Eq. (51): support 3/2. */
@@ -48,6 +61,22 @@ namespace Talus
       derivative[0] = s - 1.5;
       derivative[1] = -2 * (s - 1);
       derivative[2] = s - 0.5;
+    }
+
+    static constexpr bool   is_polynomial = true;
+    static constexpr double centre        = 1;
+    template <typename Values>
+    static void to_polynomial(Values &u)
+    {
+      const auto slope = 0.5 * (u[2] - u[0]), curvature = 0.5 * (u[2] + u[0]) - u[1];
+      u[0] = u[1] + 0.25 * curvature;
+      u[1] = slope;
+      u[2] = curvature;
+    }
+    template <typename Number>
+    static Number excess(const Number &t)
+    {
+      return t * (0.25 - t * t);
     }
   };
 
@@ -74,6 +103,24 @@ namespace Talus
       derivative[1] = t * (1.5 * t - 2);
       derivative[2] = -u * (1.5 * u - 2);
       derivative[3] = t * t / 2;
+    }
+
+    static constexpr bool   is_polynomial = true;
+    static constexpr double centre        = 1;
+    template <typename Values>
+    static void to_polynomial(Values &u)
+    {
+      const auto slope = 0.5 * (u[2] - u[0]), curvature = 0.5 * (u[2] + u[0]) - u[1];
+      u[3] = (u[3] - u[0]) * (1. / 6) + 0.5 * (u[1] - u[2]);
+      u[0] = u[1] + (1. / 3) * curvature;
+      u[1] = slope;
+      u[2] = curvature;
+    }
+    template <typename Number>
+    static Number excess(const Number &t)
+    {
+      const Number product = t * (1. - t);
+      return -product * product;
     }
   };
 
@@ -112,9 +159,14 @@ namespace Talus
         derivative[k]     = select(d < Number(lp), -r / lp, derivative[k]);
       }
     }
+
+    static constexpr bool is_polynomial = false; // but of several pieces
   };
 
   // second_moment: sum phi_i (x_i - x)^2 along an axis, if it is the same everywhere, or 0 [h^2].
+  // is_polynomial: whether sum phi_i u_i is one polynomial p in t = s - centre throughout a stencil. Then
+  //   to_polynomial(u) turns the values at the nodes into its coefficients, and
+  //   sum phi_i (x_i - x) u_i = second_moment p'(t) + excess(t) c [h], c being the last coefficient.
 
   /** All of them: the batched loops are compiled for each. */
   using LatticeFunction = std::variant<LinearFunction, QuadraticBSpline, CubicBSpline, GimpFunction>;

@@ -5,20 +5,30 @@
 
 namespace Talus
 {
+  /** Where the stencils of the particles of a batch begin on a lattice, one particle in each lane. */
+  template <int dim>
+  struct LatticePlaces
+  {
+    using Number = Simd<native_width>;
+
+    Number first[dim];                           // lattice index of the stencil's first node
+    Number distance[dim];                        // of the particle from it [h]
+    alignas(64) int first_node[Number::n_lanes]; // place of the stencil's first node in the lattice's tables
+    bool is_at_face;                             // one reaches a face of the domain, or beyond
+  };
+
   /**
-   * The stencils of the particles of a batch on a lattice, one particle in each
-   * lane. Away from the domain's faces weights and gradients are products of the
-   * axes' factors; at them they stand in lists, x running fastest.
+   * The stencils of the particles of a batch. Away from the domain's faces weights
+   * and gradients are products of the axes' factors; at them they stand in lists, x
+   * running fastest.
    */
   template <int dim, unsigned int n>
-  struct LatticeBatch
+  struct LatticeBatch : LatticePlaces<dim>
   {
     using Number = Simd<native_width>;
 
     static constexpr unsigned int n_nodes = dim == 2 ? n * n : n * n * n;
 
-    alignas(64) int first_node[Number::n_lanes]; // place of the stencil's first node in the lattice's tables
-    bool   is_product;
     Number weight[dim][n], derivative[dim][n], offset[dim][n];
 
     // Where not a product.
@@ -113,7 +123,7 @@ namespace Talus
   /** What the treatment makes of a batch in which a stencil reaches beyond a face of the domain. */
   template <int dim, class Function>
   void correct_batch(const Function &function, const Lattice<dim> &lattice, const Treatment<dim> &treatment,
-                     const std::array<Simd<native_width>, dim> &first, LatticeBatch<dim, Function::n> &stencil)
+                     LatticeBatch<dim, Function::n> &stencil)
   {
     using Number             = Simd<native_width>;
     constexpr unsigned int n = Function::n;
@@ -126,9 +136,9 @@ namespace Talus
     stencil.has_images     = is_mirror;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      factors.first[d]          = first[d];
+      factors.first[d]          = stencil.first[d];
       factors.last[d]           = lattice.n_cells[d];
-      const Number coordinate   = first[d] - stencil.offset[d][0] * lattice.inverse_h[d];
+      const Number coordinate   = stencil.first[d] + stencil.distance[d];
       const auto   misses_lower = coordinate + 1. < Number(reach);
       const auto   misses_upper = lattice.n_cells[d] + 1. - coordinate < Number(reach);
       const auto   slip_lower   = meets_slip_wall(lattice, stencil, 2 * d);
@@ -140,7 +150,7 @@ namespace Talus
         factors.is_truncated[d] = (misses_lower & !slip_lower) | (misses_upper & !slip_upper);
       for (unsigned int k = 0; k < n; ++k)
       {
-        const Number index    = first[d] + static_cast<double>(k);
+        const Number index    = stencil.first[d] + static_cast<double>(k);
         auto         is_there = (index >= Number(0.)) & (index <= Number(factors.last[d]));
         if (is_mirror)
           is_there = ((index >= Number(0.)) | slip_lower) & ((index <= Number(factors.last[d])) | slip_upper);
@@ -153,49 +163,85 @@ namespace Talus
     multiply(factors, stencil);
   }
 
-  /** The stencils of the particles at `x`, one in each lane. */
+  /** Finds the stencils of batches of particles and evaluates them; holds what all of them share. */
   template <int dim, class Function>
-  [[gnu::always_inline]] inline void evaluate_batch(const Function &function, const Lattice<dim> &lattice,
-                                                    const Treatment<dim>                             &treatment,
-                                                    const dealii::Tensor<1, dim, Simd<native_width>> &x,
-                                                    LatticeBatch<dim, Function::n>                   &stencil)
+  class BatchEvaluator
   {
-    using Number                        = Simd<native_width>;
-    constexpr unsigned int n            = Function::n;
-    const bool             needs_margin = treatment.needs_boundary_scale(); // Steffen changes complete stencils as well
-    const bool             least_squares = n > 2 && treatment.is_everywhere();
+    using Number                    = Simd<native_width>;
+    static constexpr unsigned int n = Function::n;
 
-    std::array<Number, dim> first;
-    auto                    is_at_face = Number(1.) < Number(0.);
-    Number                  place      = 0.; // a whole number below 2^31
-    for (unsigned int d = 0; d < dim; ++d)
+  public:
+    BatchEvaluator(const Function &function, const Lattice<dim> &lattice, const Treatment<dim> &treatment) :
+      function(function), lattice(lattice), treatment(treatment), least_squares(n > 2 && treatment.is_everywhere())
     {
-      const Number coordinate = (x[d] - lattice.origin[d]) * lattice.inverse_h[d];
-      first[d]                = floor(coordinate - Number(Function::shift));
-      const Number s          = coordinate - first[d];
-      function.evaluate(s, stencil.weight[d], stencil.derivative[d]);
-      for (unsigned int k = 0; k < n; ++k)
-        stencil.offset[d][k] = (static_cast<double>(k) - s) * lattice.h[d];
-      if (least_squares)
+      const bool needs_margin = treatment.needs_boundary_scale(); // Steffen changes complete stencils as well
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        // A complete B-spline has m0 = 1 and mean 0: see AxisMoments.
-        Number variance = 0.;
-        for (unsigned int k = 0; k < n; ++k)
-          variance += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
-        const Number inverse = 1. / variance;
-        for (unsigned int k = 0; k < n; ++k)
-          stencil.derivative[d][k] = stencil.weight[d][k] * stencil.offset[d][k] * inverse;
+        origin[d]    = lattice.origin[d];
+        h[d]         = lattice.h[d];
+        inverse_h[d] = lattice.inverse_h[d];
+        stride[d]    = lattice.stride[d];
+        lowest[d]    = needs_margin ? 1 : 0;
+        highest[d]   = lattice.n_cells[d] + (needs_margin ? 0. : 1.) - n;
+        place_of_zero -= lattice.first[d] * stride[d];
       }
-      else
-        for (unsigned int k = 0; k < n; ++k)
-          stencil.derivative[d][k] *= lattice.inverse_h[d];
-      place += (first[d] - static_cast<double>(lattice.first[d])) * static_cast<double>(lattice.stride[d]);
-      is_at_face = is_at_face | (first[d] < Number(needs_margin ? 1. : 0.)) |
-                   (first[d] > Number(lattice.n_cells[d] + (needs_margin ? 0. : 1.) - n));
     }
-    store_integers(place, stencil.first_node);
-    stencil.is_product = !any(is_at_face);
-    if (!stencil.is_product)
-      correct_batch<dim, Function>(function, lattice, treatment, first, stencil);
-  }
+
+    /** Where the stencils of the particles at `x` begin. */
+    [[gnu::always_inline]] void locate(const dealii::Tensor<1, dim, Number> &x, LatticePlaces<dim> &places) const
+    {
+      auto   is_at_face = Number(1.) < Number(0.);
+      Number place      = place_of_zero; // a whole number below 2^31
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Number coordinate = (x[d] - origin[d]) * inverse_h[d];
+        const Number first      = floor(coordinate - Number(Function::shift));
+        places.first[d]         = first;
+        places.distance[d]      = coordinate - first;
+        place += first * stride[d];
+        is_at_face = is_at_face | (first < Number(lowest[d])) | (first > Number(highest[d]));
+      }
+      store_integers(place, places.first_node);
+      places.is_at_face = any(is_at_face);
+    }
+
+    /** Weights and gradients in stencils that are located. */
+    [[gnu::always_inline]] void evaluate(LatticeBatch<dim, n> &stencil) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Number s = stencil.distance[d];
+        function.evaluate(s, stencil.weight[d], stencil.derivative[d]);
+        for (unsigned int k = 0; k < n; ++k)
+          stencil.offset[d][k] = (static_cast<double>(k) - s) * h[d];
+        if (least_squares)
+        {
+          // A complete B-spline has m0 = 1 and mean 0: see AxisMoments.
+          Number variance = 0.;
+          for (unsigned int k = 0; k < n; ++k)
+            variance += stencil.weight[d][k] * stencil.offset[d][k] * stencil.offset[d][k];
+          const Number inverse = 1. / variance;
+          for (unsigned int k = 0; k < n; ++k)
+            stencil.derivative[d][k] = stencil.weight[d][k] * stencil.offset[d][k] * inverse;
+        }
+        else
+          for (unsigned int k = 0; k < n; ++k)
+            stencil.derivative[d][k] *= inverse_h[d];
+      }
+      if (stencil.is_at_face)
+        correct_batch<dim, Function>(function, lattice, treatment, stencil);
+    }
+
+    /** Whether complete stencils have the function's own values and derivatives. */
+    bool leaves_complete_stencils() const { return !least_squares; }
+
+  private:
+    const Function       &function;
+    const Lattice<dim>   &lattice;
+    const Treatment<dim> &treatment;
+    const bool            least_squares;
+
+    // Of the lattice, as numbers: origin and spacing, table places, and the range of a complete stencil's first index.
+    double origin[dim], h[dim], inverse_h[dim], stride[dim], lowest[dim], highest[dim], place_of_zero = 0;
+  };
 } // namespace Talus

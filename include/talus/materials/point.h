@@ -58,6 +58,7 @@ namespace Talus
     Number mass() const { return batch.load(range.mass); }
     Number volume() const { return batch.load(range.volume); }
     Number density() const { return mass() / volume(); }
+    Number specific_volume() const { return volume() / mass(); }
     Number state(const unsigned int s) const { return batch.load(range.state[s]); }
 
     void set_stress(const Symmetric &value) const

@@ -40,7 +40,7 @@ namespace Talus
                                                                const Fields               &fields)
     {
       Sums sums;
-      if (stencil.is_product)
+      if (!stencil.is_at_face)
       {
         const Moments moments(stencil);
         for (unsigned int l = 0; l < width; ++l)

@@ -39,7 +39,7 @@ namespace Talus
     [[gnu::always_inline]] void add(const Lattice<dim> &lattice, const LatticeBatch<dim, n> &stencil,
                                     const unsigned int size, Fields &fields) const
     {
-      if (!stencil.is_product)
+      if (stencil.is_at_face)
         for (unsigned int l = 0; l < size; ++l)
           scatter_list(vectors, lattice, stencil, l, fields);
       else
@@ -89,12 +89,12 @@ namespace Talus
       dealii::Tensor<2, dim, Number> C;
       if constexpr (is_affine)
       {
-        if (stencil.is_product)
+        if (!stencil.is_at_face)
           C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
         else
           C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
       }
-      if (is_affine && !stencil.is_product && scheme.projects_slip)
+      if (is_affine && stencil.is_at_face && scheme.projects_slip)
         C = without_wall_shear(C, stencil.is_at_slip_wall);
       for (unsigned int e = 0; e < dim; ++e)
       {
@@ -124,15 +124,19 @@ namespace Talus
       return D;
     }
 
-    /** The diagonal of D of a product of factors: they reproduce linear functions, so that all else is zero. */
-    [[gnu::always_inline]] static VectorNumber diagonal_second_moment(const LatticeBatch<dim, n>    &stencil,
-                                                                      const std::array<double, dim> &h)
+    /**
+     * The diagonal of D of a product of factors: they reproduce linear functions, so that all else is zero. The same
+     * for all particles if the function says so.
+     */
+    [[gnu::always_inline]] static auto diagonal_second_moment(const LatticeBatch<dim, n>    &stencil,
+                                                              const std::array<double, dim> &h)
     {
-      VectorNumber D;
+      constexpr bool is_uniform = Function::second_moment > 0;
+      dealii::Tensor<1, dim, std::conditional_t<is_uniform, double, Number>> D;
       if constexpr (Scheme::needs_D)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          if constexpr (Function::second_moment > 0)
+          if constexpr (is_uniform)
             D[d] = Function::second_moment * h[d] * h[d];
           else
             for (unsigned int k = 0; k < n; ++k)

@@ -4,6 +4,7 @@
 #include <talus/grid/grid.h>
 #include <talus/transfer/batch_gather.h>
 #include <talus/transfer/batch_scatter.h>
+#include <talus/transfer/polynomial_gather.h>
 
 namespace Talus
 {
@@ -25,10 +26,12 @@ namespace Talus
       const Lattice<dim>  &lattice   = *kernel.lattice;
       Fields              &fields    = grid.fields;
       const auto           uniform_b = acceleration.value({}, time);
+      const Evaluator      evaluator(function, lattice, *kernel.treatment);
       LatticeBatch<dim, n> stencil;
       for_each_batch(0, n_particles, [&](const auto batch) {
         const auto x = load_vector<dim>(batch, arrays.position);
-        evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
+        evaluator.locate(x, stencil);
+        evaluator.evaluate(stencil);
         VectorNumber b;
         for (unsigned int d = 0; d < dim; ++d)
           b[d] = uniform_b[d];
@@ -47,12 +50,20 @@ namespace Talus
       const Lattice<dim>  &lattice      = *kernel.lattice;
       const Fields        &fields       = grid.fields;
       Number               displacement = 0.;
+      const Evaluator      evaluator(function, lattice, *kernel.treatment);
       LatticeBatch<dim, n> stencil;
+      Polynomials          polynomials(lattice, fields);
       for_each_batch(begin, end, [&](const auto batch) {
         prefetch_gather(arrays, batch.p);
         const auto x = load_vector<dim>(batch, arrays.position);
-        evaluate_batch(function, lattice, *kernel.treatment, x, stencil);
-        const auto sum = BatchGather<dim, Scheme, Function>::gather(lattice, stencil, fields);
+        evaluator.locate(x, stencil);
+        const auto sum = [&] {
+          if constexpr (Function::is_polynomial)
+            if (!stencil.is_at_face && evaluator.leaves_complete_stencils())
+              return polynomials.gather(stencil);
+          evaluator.evaluate(stencil);
+          return BatchGather<dim, Scheme, Function>::gather(lattice, stencil, fields);
+        }();
         store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
         store_matrix<dim>(batch, arrays.grad_v, sum.grad_v);
         scheme.update(arrays, batch, sum);
@@ -69,6 +80,8 @@ namespace Talus
     using Fields       = NodalFields<dim>;
     using Number       = Simd<native_width>;
     using VectorNumber = dealii::Tensor<1, dim, Number>;
+    using Evaluator    = BatchEvaluator<dim, Function>;
+    using Polynomials  = PolynomialGather<dim, Scheme, Function>;
 
     static_assert(Fields::stride == 8 && Fields::velocity == 1 && Fields::increment == 1 + dim, "the layout of a node");
 
