@@ -177,7 +177,7 @@ namespace Test
     {
       for (auto &body : bodies)
         body->shape->create(grid.lattice.h);
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
+      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, kernel->n_nodes());
       particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
       smoothing.add_fields(materials, particles);
       if (!bodies.empty())

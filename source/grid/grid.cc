@@ -1,10 +1,8 @@
 #include <talus/core/exceptions.h>
 #include <talus/grid/grid.h>
 
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace Talus
@@ -13,15 +11,6 @@ namespace Talus
 
   namespace
   {
-    template <int dim>
-    typename Lattice<dim>::Index to_index(const Lattice<dim> &lattice, const Point<dim> &x, const double shift)
-    {
-      typename Lattice<dim>::Index index;
-      for (unsigned int d = 0; d < dim; ++d)
-        index[d] = static_cast<int>(std::floor(lattice.coordinate(x[d], d) + shift));
-      return index;
-    }
-
     /** The largest power of two that divides all counts; p4est refines this often from the coarse mesh. */
     template <std::size_t dim>
     unsigned int common_refinements(const std::array<int, dim> &counts)
@@ -96,11 +85,11 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight)
+  void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight, const unsigned int n)
   {
     create_triangulation(weight);
     number_nodes();
-    fill_tables();
+    fill_tables(n);
   }
 
   template <int dim>
@@ -135,88 +124,6 @@ namespace Talus
     cells.assign(triangulation.n_active_cells(), CellIterator());
     for (const auto &cell : triangulation.active_cell_iterators())
       cells[cell->active_cell_index()] = cell;
-  }
-
-  template <int dim>
-  void Grid<dim>::number_nodes()
-  {
-    dof_handler.distribute_dofs(fe);
-
-    // Lexicographic order of the nodes this rank owns.
-    std::vector<std::pair<std::array<int, dim>, types::global_dof_index>> owned;
-    const IndexSet                                                        before = dof_handler.locally_owned_dofs();
-    std::vector<bool>                                                     is_seen(before.n_elements(), false);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int v : cell->vertex_indices())
-        {
-          const auto dof = cell->vertex_dof_index(v, 0);
-          if (!before.is_element(dof) || is_seen[before.index_within_set(dof)])
-            continue;
-          is_seen[before.index_within_set(dof)] = true;
-          auto index                            = to_index(lattice, cell->vertex(v), 0.5);
-          std::reverse(index.begin(), index.end());
-          owned.emplace_back(index, dof);
-        }
-    std::sort(owned.begin(), owned.end());
-    std::vector<types::global_dof_index> numbers(owned.size());
-    for (unsigned int i = 0; i < owned.size(); ++i)
-      numbers[before.index_within_set(owned[i].second)] = before.nth_index_in_set(i);
-    dof_handler.renumber_dofs(numbers);
-  }
-
-  template <int dim>
-  void Grid<dim>::fill_tables()
-  {
-    const IndexSet owned = dof_handler.locally_owned_dofs();
-    IndexSet       relevant;
-    DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    const IndexSet known = relevant;
-
-    // Local numbers: owned nodes, then the others by global number.
-    relevant.subtract_set(owned);
-    const auto local = [&](const types::global_dof_index dof) {
-      return owned.is_element(dof) ? owned.index_within_set(dof) : owned.n_elements() + relevant.index_within_set(dof);
-    };
-
-    typename Lattice<dim>::Index first, last;
-    first.fill(std::numeric_limits<int>::max());
-    last.fill(std::numeric_limits<int>::min());
-    node_index.resize(owned.n_elements() + relevant.n_elements());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int v : cell->vertex_indices())
-        {
-          const auto index                                = to_index(lattice, cell->vertex(v), 0.5);
-          node_index[local(cell->vertex_dof_index(v, 0))] = index;
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            first[d] = std::min(first[d], index[d]);
-            last[d]  = std::max(last[d], index[d]);
-          }
-        }
-    if (node_index.empty()) // a rank without cells
-      first.fill(0), last.fill(0);
-
-    lattice.resize_tables(first, last);
-    std::vector<unsigned int> places(node_index.size());
-    for (unsigned int node = 0; node < node_index.size(); ++node)
-    {
-      places[node]               = lattice.table_index(node_index[node]);
-      lattice.node[places[node]] = node;
-    }
-    fields.reinit(owned, known, communicator, places, lattice.node.size());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (!cell->is_artificial())
-      {
-        const int entry      = lattice.table_index(to_index(lattice, cell->center(), 0.));
-        lattice.owner[entry] = cell->subdomain_id();
-        if (cell->is_locally_owned())
-          lattice.cell[entry] = cell->active_cell_index();
-      }
-    lattice.find_images();
-    is_active.assign(fields.n_local(), true);
-    collect_active_nodes();
   }
 
   template <int dim>

@@ -2,25 +2,6 @@
 
 namespace Talus
 {
-  namespace
-  {
-    /** Calls `body(index)` for the n^dim lattice indices of a stencil that begins at `base`. */
-    template <int dim, class Body>
-    void for_each_index(const std::array<int, dim> &base, const int n, const Body &body)
-    {
-      int size = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        size *= n;
-      for (int k = 0; k < size; ++k)
-      {
-        std::array<int, dim> index;
-        for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
-          index[d] = base[d] + rest % n;
-        body(index);
-      }
-    }
-  } // namespace
-
   template <int dim>
   unsigned int Lattice<dim>::node_at(const Index &index) const
   {
@@ -32,7 +13,7 @@ namespace Talus
   {
     std::vector<char> is_covered(node.size(), true);
     for (int entry = 0; entry < static_cast<int>(node.size()); ++entry)
-      for_each_index<dim>(table_entry(entry), n, [&](const Index &index) {
+      for_each_index(table_entry(entry), n, [&](const Index &index) {
         bool is_in_domain = true;
         for (unsigned int d = 0; d < dim; ++d)
           is_in_domain = is_in_domain && index[d] >= 0 && index[d] <= n_cells[d];
@@ -79,7 +60,7 @@ namespace Talus
       if (is_inside)
         continue;
       Faces reached = 0, held = 0;
-      for_each_index<dim>(base, n, [&](const Index &index) {
+      for_each_index(base, n, [&](const Index &index) {
         const unsigned int i = node_at(index);
         if (i == missing)
           return;

@@ -137,7 +137,7 @@ namespace Talus
     Timing::Scope scope(timing, set_up_section);
     for (auto &body : bodies)
       body->shape->create(grid.lattice.h);
-    grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
+    grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, kernel->n_nodes());
     particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
     smoothing.add_fields(materials, particles);
     particles.create(grid, bodies, materials);

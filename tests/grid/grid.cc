@@ -143,6 +143,82 @@ void exchange()
   }
 }
 
+/**
+ * Which cells' owners and which nodes a rank knows: those around its cells, and one layer more of owners and, for
+ * stencils of four nodes, of nodes. By hand from the cells that it owns; and what the owners say arrives there.
+ */
+template <int dim>
+void layers()
+{
+  for (const std::string kernel : {"quadratic B-spline", "cubic B-spline"})
+  {
+    Setup<dim>  s(section("Grid", set("Cells", coordinates<dim>({{9, 7, 6}}))) + kernel_text(kernel, "WLS"));
+    auto       &grid     = s.grid;
+    const auto &lattice  = grid.lattice;
+    const int   n_layers = kernel == "cubic B-spline" ? 2 : 1;
+    const bool  is_alone = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+
+    // Whether one of this rank's cells lies at most so many cells before and after an index, on every axis.
+    const auto has_owned = [&](const typename Lattice<dim>::Index &index, const int before, const int after) {
+      bool found = false;
+      for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
+        if (lattice.cell[entry] != lattice.missing)
+        {
+          const auto cell    = lattice.table_entry(entry);
+          bool       is_near = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            is_near = is_near && cell[d] >= index[d] - before && cell[d] <= index[d] + after;
+          found = found || is_near;
+        }
+      return found;
+    };
+    bool nodes_agree = true, owners_agree = true;
+    for (unsigned int entry = 0; entry < lattice.node.size(); ++entry)
+    {
+      const auto index   = lattice.table_entry(entry);
+      bool       is_node = true, is_cell = true;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        is_node = is_node && index[d] >= 0 && index[d] <= lattice.n_cells[d];
+        is_cell = is_cell && index[d] >= 0 && index[d] < lattice.n_cells[d];
+      }
+      const bool is_known = is_node && has_owned(index, n_layers + 1, n_layers);
+      nodes_agree         = nodes_agree && (lattice.node[entry] != lattice.missing) == is_known;
+      const bool has_owner = is_cell && has_owned(index, 2, 2);
+      owners_agree         = owners_agree && (lattice.owner[entry] != lattice.missing) == has_owner;
+    }
+    check_true(kernel + ": nodes", nodes_agree);
+    check_true(kernel + ": owners of cells", owners_agree || is_alone);
+
+    // The owners: every rank writes its number into its cells of one global list.
+    std::vector<unsigned int> owner(9 * 7 * 6, 0), sum_of_owners(owner.size());
+    const auto                number = [&](const typename Lattice<dim>::Index &cell) {
+      return cell[0] + 9 * (cell[1] + 7 * (dim == 3 ? cell[dim - 1] : 0));
+    };
+    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
+      if (lattice.cell[entry] != lattice.missing)
+        owner[number(lattice.table_entry(entry))] = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    Utilities::MPI::sum(owner, MPI_COMM_WORLD, sum_of_owners);
+    bool is_right = true;
+    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+      if (lattice.owner[entry] != lattice.missing)
+        is_right = is_right && lattice.owner[entry] == sum_of_owners[number(lattice.table_entry(entry))];
+    check_true(kernel + ": each cell's own owner", is_right);
+
+    // Every node's owner writes where it is; all copies must read where they are.
+    grid.fields.clear();
+    for (unsigned int i = 0; i < grid.fields.n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        grid.fields[i][d] = grid.node_position(i)[d];
+    grid.fields.update_copies();
+    double error = 0;
+    for (unsigned int i = 0; i < grid.fields.n_local(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        raise(error, grid.fields[i][d] - grid.node_position(i)[d]);
+    check(kernel + ": copies lie where their owners do", error, 1e-14);
+  }
+}
+
 /** A stencil is covered when every node of it that lies in the domain is known; here it is counted by hand. */
 template <int dim>
 void coverage()
@@ -331,6 +407,7 @@ INSTANTIATE(nodes)
 INSTANTIATE(tables)
 INSTANTIATE(boundary_nodes)
 INSTANTIATE(exchange)
+INSTANTIATE(layers)
 INSTANTIATE(coverage)
 INSTANTIATE(velocity_update)
 INSTANTIATE(activity)

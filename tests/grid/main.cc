@@ -7,6 +7,7 @@ DECLARE(nodes)
 DECLARE(tables)
 DECLARE(boundary_nodes)
 DECLARE(exchange)
+DECLARE(layers)
 DECLARE(coverage)
 DECLARE(velocity_update)
 DECLARE(activity)
@@ -23,6 +24,8 @@ int main(int argc, char **argv)
                     {"boundary nodes 3D", boundary_nodes<3>},
                     {"exchange 2D", exchange<2>},
                     {"exchange 3D", exchange<3>},
+                    {"layers 2D", layers<2>},
+                    {"layers 3D", layers<3>},
                     {"coverage 2D", coverage<2>},
                     {"coverage 3D", coverage<3>},
                     {"velocity update 2D", velocity_update<2>},

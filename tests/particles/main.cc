@@ -11,6 +11,7 @@ DECLARE(hydrostatic)
 DECLARE(body_errors)
 DECLARE(synchronise)
 DECLARE(far_away)
+DECLARE(beyond_ghost_cells)
 DECLARE(lost)
 DECLARE(drift)
 DECLARE(outside)
@@ -35,6 +36,8 @@ int main(int argc, char **argv)
                     {"synchronise 3D", synchronise<3>},
                     {"far away 2D", far_away<2>},
                     {"far away 3D", far_away<3>},
+                    {"beyond ghost cells 2D", beyond_ghost_cells<2>},
+                    {"beyond ghost cells 3D", beyond_ghost_cells<3>},
                     {"lost 2D", lost<2>},
                     {"lost 3D", lost<3>},
                     {"drift 2D", drift<2>},

@@ -85,7 +85,7 @@ namespace Test
 
     void create()
     {
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); });
+      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, 2);
       particles.create(grid, bodies, materials);
       particles.set_stencil(grid, 2, 0);
     }

@@ -25,10 +25,10 @@ namespace Talus
     Grid(const std::string &section, MPI_Comm communicator);
 
     /**
-     * Builds triangulation, nodes, lattice and fields. `weight` estimates a cell's
-     * work (its number of particles); the ranks' shares are balanced by it.
+     * Builds triangulation, nodes, lattice and fields for stencils of `n` nodes per axis. `weight` estimates
+     * a cell's work (its number of particles); the ranks' shares are balanced by it. Collective.
      */
-    void create(const std::function<unsigned int(const CellIterator &)> &weight);
+    void create(const std::function<unsigned int(const CellIterator &)> &weight, const unsigned int n);
 
     /** Sets up the triangulation's extents alone; called by create(). */
     void parse_parameters(dealii::ParameterHandler &prm) override;
@@ -89,7 +89,15 @@ namespace Talus
   private:
     void create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight);
     void number_nodes();
-    void fill_tables();
+    void fill_tables(const unsigned int n);
+
+    /**
+     * What deal.II does not tell of the cells around this rank's ghost cells, their owners do: who owns them and, if
+     * stencils have more than three nodes, the numbers of their nodes. Particles with such stencils can then stray
+     * into ghost cells, as others can without it; the owner is who a particle that goes farther is sent to.
+     */
+    void learn_second_layer(const unsigned int n, std::vector<dealii::types::global_dof_index> &dofs,
+                            dealii::IndexSet &known);
 
     void collect_active_nodes();
 

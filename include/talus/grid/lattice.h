@@ -9,6 +9,22 @@
 
 namespace Talus
 {
+  /** Calls `body(index)` for the n^dim lattice indices from `first` on, x running fastest. */
+  template <std::size_t dim, class Body>
+  void for_each_index(const std::array<int, dim> &first, const int n, const Body &body)
+  {
+    int size = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      size *= n;
+    for (int k = 0; k < size; ++k)
+    {
+      std::array<int, dim> index = first;
+      for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
+        index[d] += rest % n;
+      body(index);
+    }
+  }
+
   /**
    * The box grid as a regular lattice: where a point lies by arithmetic instead
    * of a search, and which local node or cell sits at a lattice index.

@@ -22,5 +22,6 @@ namespace Talus
     // Displacements since the last time, of the fastest particle of each step [spacing].
     static constexpr double far        = 1e300;
     double                  since_sort = 0, since_activation = far;
+    double                  staleness = 0; // the sum of since_sort over the steps
   };
 } // namespace Talus

@@ -1,0 +1,182 @@
+#include <talus/grid/grid.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    typename Lattice<dim>::Index to_index(const Lattice<dim> &lattice, const Point<dim> &x, const double shift)
+    {
+      typename Lattice<dim>::Index index;
+      for (unsigned int d = 0; d < dim; ++d)
+        index[d] = static_cast<int>(std::floor(lattice.coordinate(x[d], d) + shift));
+      return index;
+    }
+  } // namespace
+
+  template <int dim>
+  void Grid<dim>::number_nodes()
+  {
+    dof_handler.distribute_dofs(fe);
+
+    // Lexicographic order of the nodes this rank owns.
+    std::vector<std::pair<std::array<int, dim>, types::global_dof_index>> owned;
+    const IndexSet                                                        before = dof_handler.locally_owned_dofs();
+    std::vector<bool>                                                     is_seen(before.n_elements(), false);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+        {
+          const auto dof = cell->vertex_dof_index(v, 0);
+          if (!before.is_element(dof) || is_seen[before.index_within_set(dof)])
+            continue;
+          is_seen[before.index_within_set(dof)] = true;
+          auto index                            = to_index(lattice, cell->vertex(v), 0.5);
+          std::reverse(index.begin(), index.end());
+          owned.emplace_back(index, dof);
+        }
+    std::sort(owned.begin(), owned.end());
+    std::vector<types::global_dof_index> numbers(owned.size());
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      numbers[before.index_within_set(owned[i].second)] = before.nth_index_in_set(i);
+    dof_handler.renumber_dofs(numbers);
+  }
+
+  template <int dim>
+  void Grid<dim>::fill_tables(const unsigned int n)
+  {
+    typename Lattice<dim>::Index first, last;
+    first.fill(std::numeric_limits<int>::max());
+    last.fill(std::numeric_limits<int>::min());
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+      {
+        const auto index = to_index(lattice, cell->center(), 0.);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          first[d] = std::min(first[d], index[d]);
+          last[d]  = std::max(last[d], index[d] + 1);
+        }
+      }
+    if (first[0] > last[0]) // a rank without cells
+      first.fill(0), last.fill(0);
+    lattice.resize_tables(first, last);
+
+    std::vector<types::global_dof_index> dofs(lattice.node.size(), numbers::invalid_dof_index); // of the nodes
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+      {
+        const auto index     = to_index(lattice, cell->center(), 0.);
+        const int  entry     = lattice.table_index(index);
+        lattice.owner[entry] = cell->subdomain_id();
+        if (cell->is_locally_owned())
+          lattice.cell[entry] = cell->active_cell_index();
+        unsigned int v = 0;
+        for_each_index(index, 2, [&](const auto &corner) {
+          dofs[lattice.table_index(corner)] = cell->vertex_dof_index(v++, 0);
+        });
+      }
+    IndexSet known;
+    DoFTools::extract_locally_relevant_dofs(dof_handler, known);
+    learn_second_layer(n, dofs, known);
+
+    // Local numbers: owned nodes, then the others by global number.
+    const IndexSet owned = dof_handler.locally_owned_dofs();
+    IndexSet       others = known;
+    others.subtract_set(owned);
+    node_index.resize(known.n_elements());
+    std::vector<unsigned int> places(known.n_elements());
+    for (unsigned int entry = 0; entry < dofs.size(); ++entry)
+      if (dofs[entry] != numbers::invalid_dof_index)
+      {
+        const unsigned int node = owned.is_element(dofs[entry]) ?
+                                    owned.index_within_set(dofs[entry]) :
+                                    owned.n_elements() + others.index_within_set(dofs[entry]);
+        lattice.node[entry]     = node;
+        node_index[node]        = lattice.table_entry(entry);
+        places[node]            = entry;
+      }
+    fields.reinit(owned, known, communicator, places, lattice.node.size());
+    lattice.find_images();
+    is_active.assign(fields.n_local(), true);
+    collect_active_nodes();
+  }
+
+  template <int dim>
+  void Grid<dim>::learn_second_layer(const unsigned int n, std::vector<types::global_dof_index> &dofs, IndexSet &known)
+  {
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return;
+    using Index = typename Lattice<dim>::Index;
+    // By rank, the entries around those of my cells that it has as ghosts.
+    std::map<unsigned int, std::set<int>> cells, nodes;
+    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
+      if (lattice.cell[entry] != lattice.missing)
+      {
+        Index before = lattice.table_entry(entry);
+        for (unsigned int d = 0; d < dim; ++d)
+          --before[d];
+        std::set<unsigned int> ranks;
+        for_each_index(before, 3, [&](const Index &index) {
+          const unsigned int rank = lattice.owner[lattice.table_index(index)];
+          if (rank != lattice.missing && rank != my_rank)
+            ranks.insert(rank);
+        });
+        for (const unsigned int rank : ranks)
+        {
+          for_each_index(before, 3, [&](const Index &index) { cells[rank].insert(lattice.table_index(index)); });
+          for_each_index(before, 4, [&](const Index &index) { nodes[rank].insert(lattice.table_index(index)); });
+        }
+      }
+
+    // Tells each rank what this one knows of the entries, as lattice index and number.
+    const auto share = [&](const std::map<unsigned int, std::set<int>> &entries, auto &table) {
+      std::map<unsigned int, std::vector<types::global_dof_index>> messages;
+      for (const auto &[rank, of_rank] : entries)
+        for (const int entry : of_rank)
+          if (table[entry] + 1 != 0)
+          {
+            const Index index = lattice.table_entry(entry);
+            messages[rank].insert(messages[rank].end(), index.begin(), index.end());
+            messages[rank].push_back(table[entry]);
+          }
+      for (const auto &[rank, message] : Utilities::MPI::some_to_some(communicator, messages))
+        for (unsigned int i = 0; i < message.size(); i += dim + 1)
+        {
+          Index index;
+          std::copy_n(message.begin() + i, dim, index.begin());
+          table[lattice.table_index(index)] = message[i + dim];
+        }
+    };
+    share(cells, lattice.owner);
+    if (n > 3)
+    {
+      share(nodes, dofs);
+      std::vector<types::global_dof_index> all;
+      std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all), [](const auto dof) {
+        return dof != numbers::invalid_dof_index;
+      });
+      std::sort(all.begin(), all.end());
+      known.add_indices(all.begin(), all.end());
+      known.compress();
+    }
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template void Grid<dim>::number_nodes();                                                                             \
+  template void Grid<dim>::fill_tables(const unsigned int);                                                            \
+  template void Grid<dim>::learn_second_layer(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
