@@ -81,16 +81,15 @@ namespace Talus
         if (cell->is_locally_owned())
           lattice.cell[entry] = cell->active_cell_index();
         unsigned int v = 0;
-        for_each_index(index, 2, [&](const auto &corner) {
-          dofs[lattice.table_index(corner)] = cell->vertex_dof_index(v++, 0);
-        });
+        for_each_index(index, 2,
+                       [&](const auto &corner) { dofs[lattice.table_index(corner)] = cell->vertex_dof_index(v++, 0); });
       }
     IndexSet known;
     DoFTools::extract_locally_relevant_dofs(dof_handler, known);
     learn_second_layer(n, dofs, known);
 
     // Local numbers: owned nodes, then the others by global number.
-    const IndexSet owned = dof_handler.locally_owned_dofs();
+    const IndexSet owned  = dof_handler.locally_owned_dofs();
     IndexSet       others = known;
     others.subtract_set(owned);
     node_index.resize(known.n_elements());
@@ -163,9 +162,8 @@ namespace Talus
     {
       share(nodes, dofs);
       std::vector<types::global_dof_index> all;
-      std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all), [](const auto dof) {
-        return dof != numbers::invalid_dof_index;
-      });
+      std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all),
+                   [](const auto dof) { return dof != numbers::invalid_dof_index; });
       std::sort(all.begin(), all.end());
       known.add_indices(all.begin(), all.end());
       known.compress();

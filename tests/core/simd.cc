@@ -80,6 +80,10 @@ namespace
       wrong += !any(one < Number(0.)) + any(one > Number(0.));
     }
     check(name + "any", wrong, 0.5);
+    wrong = 0;
+    for (int l = 0; l < width; ++l)
+      wrong += select(true, a, a + 1.)[l] != a[l] || select(false, a, a + 1.)[l] != a[l] + 1.;
+    check(name + "select by one condition", wrong, 0.5);
 
     for (int l = 0; l < width; ++l)
       wanted[l] = (3 * l + 5) % 16;

@@ -182,8 +182,8 @@ void layers()
         is_node = is_node && index[d] >= 0 && index[d] <= lattice.n_cells[d];
         is_cell = is_cell && index[d] >= 0 && index[d] < lattice.n_cells[d];
       }
-      const bool is_known = is_node && has_owned(index, n_layers + 1, n_layers);
-      nodes_agree         = nodes_agree && (lattice.node[entry] != lattice.missing) == is_known;
+      const bool is_known  = is_node && has_owned(index, n_layers + 1, n_layers);
+      nodes_agree          = nodes_agree && (lattice.node[entry] != lattice.missing) == is_known;
       const bool has_owner = is_cell && has_owned(index, 2, 2);
       owners_agree         = owners_agree && (lattice.owner[entry] != lattice.missing) == has_owner;
     }
@@ -331,8 +331,7 @@ void activity()
   std::vector<char> first(grid.lattice.node.size(), 0);
   const auto        is_around = [&](const unsigned int i, const Index &place, const int margin) {
     for (unsigned int d = 0; d < dim; ++d)
-      if (grid.node_index[i][d] < place[d] - margin ||
-          grid.node_index[i][d] >= place[d] + static_cast<int>(n) + margin)
+      if (grid.node_index[i][d] < place[d] - margin || grid.node_index[i][d] >= place[d] + static_cast<int>(n) + margin)
         return false;
     return true;
   };

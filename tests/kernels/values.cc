@@ -280,7 +280,7 @@ namespace
   void compare_polynomials(const std::string &name)
   {
     const Reference::Function reference(name);
-    constexpr unsigned int    n = Function::n;
+    constexpr unsigned int    n           = Function::n;
     double                    value_error = 0, slope_error = 0, moment_error = 0;
     for (unsigned int i = 0; i < 1000; ++i)
     {
@@ -309,7 +309,8 @@ namespace
   }
 } // namespace
 
-/** Inside a stencil the field of a B-spline is a polynomial, and so is its first moment: by the recursion of splines. */
+/** Inside a stencil the field of a B-spline is a polynomial, and so is its first moment: by the recursion of splines.
+ */
 void polynomials()
 {
   compare_polynomials<LinearFunction>("linear");

@@ -9,7 +9,8 @@ namespace Talus
 {
   /**
    * What the particles of a batch gather from their nodes, Eqs. (23), (25), (26): see
-   * Gathered. A node's numbers from the velocity on stand in a register several times,
+   * Gathered. Of any kernel, and at faces; for complete stencils of B-splines see
+   * PolynomialGather. A node's numbers from the velocity on stand in a register several times,
    * so that one multiply-add sums the velocity, its derivative along x and, where the
    * scheme wants it, its moment along x. What the other axes add is summed apart, by
    * rows and planes where the stencil is a product. In the end the sums are transposed
@@ -26,6 +27,9 @@ namespace Talus
     static constexpr unsigned int group             = dim == 2 && !Scheme::gathers_increment ? 2 : 4;
     static constexpr bool         has_own_increment = Scheme::gathers_increment && dim == 3;
     static constexpr bool         has_own_moment    = gathers_B && group == 4; // a register holds but two groups then
+
+    // Axes whose moment is not summed in the register of groups.
+    static constexpr bool sums_moment(const unsigned int d) { return gathers_B && (d > 0 || has_own_moment); }
 
     using Fields  = NodalFields<dim>;
     using Moments = LatticeMoments<dim, n, gathers_B>;
@@ -58,7 +62,7 @@ namespace Talus
     {
       Groups groups = 0.;
       Motion gradient[dim]; // but along x
-      Motion moment[dim];   // along x only if has_own_moment
+      Motion moment[dim];   // where sums_moment()
       Motion increment = 0.;
 
       Sum()
@@ -77,8 +81,9 @@ namespace Talus
         gradient[axis] += slope * other.groups.first_four();
         if constexpr (gathers_B)
         {
-          for (unsigned int d = has_own_moment ? 0 : 1; d < axis; ++d)
-            moment[d] += weight * other.moment[d];
+          for (unsigned int d = 0; d < axis; ++d)
+            if (sums_moment(d))
+              moment[d] += weight * other.moment[d];
           moment[axis] += lever * other.groups.first_four();
         }
         if constexpr (has_own_increment)
@@ -99,7 +104,7 @@ namespace Talus
         {
           if (d > 0)
             gradient[d][l] = sum.gradient[d];
-          if (gathers_B && (d > 0 || has_own_moment))
+          if (sums_moment(d))
             moment[d][l] = sum.moment[d];
         }
         if constexpr (has_own_increment)
@@ -129,7 +134,7 @@ namespace Talus
             for (unsigned int d = 0; d < dim; ++d)
               sum.grad_v[d][e] = four[d];
           }
-          if (gathers_B && (e > 0 || has_own_moment))
+          if (sums_moment(e))
           {
             vectors_to_lanes<width>(moment[e], four);
             for (unsigned int d = 0; d < dim; ++d)
@@ -225,7 +230,7 @@ namespace Talus
         {
           if (d > 0)
             sum.gradient[d] += stencil.gradient[d][i].data()[l] * v.first_four();
-          if (gathers_B && (d > 0 || has_own_moment))
+          if (sums_moment(d))
             sum.moment[d] += lever(d) * v.first_four();
         }
         if constexpr (has_own_increment)

@@ -131,7 +131,7 @@ namespace Talus
     [[gnu::always_inline]] static auto diagonal_second_moment(const LatticeBatch<dim, n>    &stencil,
                                                               const std::array<double, dim> &h)
     {
-      constexpr bool is_uniform = Function::second_moment > 0;
+      constexpr bool                                                         is_uniform = Function::second_moment > 0;
       dealii::Tensor<1, dim, std::conditional_t<is_uniform, double, Number>> D;
       if constexpr (Scheme::needs_D)
         for (unsigned int d = 0; d < dim; ++d)

@@ -171,9 +171,8 @@ namespace Talus
       }
       for (unsigned int c = 0; c < dim; ++c)
       {
-        const Value v = evaluate<dim>(t, 0, [&](const unsigned int i) {
-          return coefficient(i, Fields::velocity - first_lane + c);
-        });
+        const Value v =
+          evaluate<dim>(t, 0, [&](const unsigned int i) { return coefficient(i, Fields::velocity - first_lane + c); });
         result.velocity[c] = v.value;
         for (unsigned int d = 0; d < dim; ++d)
         {
