@@ -34,13 +34,16 @@ endfunction()
 
 set(ranks 1 2 4)
 talus_compare(balls_2d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = TPIC")
-talus_compare(balls_2d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
+# With cubic kernels particles may stray a whole cell. Here none does so between two ranks; that is for the disk.
+talus_compare(balls_2d cubic_APIC "1;4" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
+talus_compare(disk_2d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
 talus_compare(balls_2d uGIMP_blend "${ranks}"
   "Kernel/Type = uGIMP" "Kernel/Boundary treatment = WLS separable" "Transfer/Type = blend")
 talus_compare(disk_2d quadratic_FLIP "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = FLIP")
 talus_compare(block_2d linear_FLIP "${ranks}")
 talus_compare(balls_3d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spline" "Transfer/Type = TPIC")
-talus_compare(balls_3d cubic_APIC "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = APIC")
+talus_compare(balls_3d cubic_APIC "${ranks}"
+  "Kernel/Type = cubic B-spline" "Transfer/Type = APIC" "Run/End time = 0.4")
 talus_compare(balls_3d uGIMP_FLIP "${ranks}" "Kernel/Type = uGIMP" "Transfer/Type = FLIP")
 foreach(pool pool_2d pool_3d)
   talus_compare(${pool} projection_TPIC "${ranks}"
