@@ -12,6 +12,11 @@ namespace Talus
    * and particles with the same nodes evaluate the same one. Its coefficients are
    * found once for a run of particles, with the numbers of a node in the lanes; it
    * is evaluated with one particle in each lane, and weights are not needed.
+   *
+   * Round-off is that of the greatest velocity in the stencil, and not of its product
+   * with the weight: of a nearly empty node, which the mass floor keeps below 1e6 times
+   * the others, some ten digits are left of what it gives. The scatter has no such
+   * choice: a small mass as a difference of large ones would have no digits at all.
    */
   template <int dim, class Scheme, class Function>
   class PolynomialGather
