@@ -52,15 +52,24 @@ namespace Talus
       }
       else if (!knows_all_stencils)
       {
-        alignas(64) int base[dim][Number::n_lanes];
+        Number place     = 0.; // in the tables, a whole number below 2^31
+        auto   is_beyond = Number(1.) < Number(0.);
         for (unsigned int d = 0; d < dim; ++d)
-          store_integers(floor(coordinate[d] - Number(stencil_shift)), base[d]);
-        for (unsigned int l = 0; l < batch.size(); ++l)
         {
-          typename Lattice<dim>::Index index;
-          for (unsigned int d = 0; d < dim; ++d)
-            index[d] = base[d][l];
-          strays = strays || !lattice.is_in_table(index) || !coverage[lattice.table_index(index)];
+          const Number index = floor(coordinate[d] - Number(stencil_shift)) - Number(lattice.first[d]);
+          is_beyond          = is_beyond | (index < Number(0.)) | (index >= Number(lattice.extent[d]));
+          place += index * Number(lattice.stride[d]);
+        }
+        if (any(is_beyond))
+          strays = true;
+        else
+        {
+          alignas(64) int places[Number::n_lanes];
+          store_integers(place, places);
+          bool is_covered = true;
+          for (const int at : places)
+            is_covered = is_covered & (coverage[at] != 0);
+          strays = strays || !is_covered;
         }
       }
     });
