@@ -101,14 +101,19 @@ namespace Talus
       return l;
     }
 
-    /** The polynomial of the stencil that begins at a place; the last `n_runs` stay. */
+    /**
+     * The polynomial of the stencil that begins at a place. It may be one of the last two found: neighbours along y and
+     * z alternate where particles have drifted. Of what is asked for, the last `n_runs` stay.
+     */
     [[gnu::always_inline]] const Field &field(const int place)
     {
-      if (known[last].place != place)
-      {
-        last = (last + 1) % n_runs;
-        find(place, known[last]);
-      }
+      if (known[last].place == place)
+        return known[last];
+      const Field &before = known[last == 0 ? n_runs : last - 1];
+      if (before.place == place)
+        return before;
+      last = last == n_runs ? 0 : last + 1;
+      find(place, known[last]);
       return known[last];
     }
 
@@ -244,7 +249,7 @@ namespace Talus
 
     const Lattice<dim> &lattice;
     const Fields       &fields;
-    Field               known[n_runs];
+    Field               known[n_runs + 1]; // a ring
     unsigned int        last = 0;
   };
 } // namespace Talus
