@@ -45,6 +45,14 @@ talus_compare(balls_3d quadratic_TPIC "${ranks}" "Kernel/Type = quadratic B-spli
 talus_compare(balls_3d cubic_APIC "${ranks}"
   "Kernel/Type = cubic B-spline" "Transfer/Type = APIC" "Run/End time = 0.4")
 talus_compare(balls_3d uGIMP_FLIP "${ranks}" "Kernel/Type = uGIMP" "Transfer/Type = FLIP")
+# Domains that follow their particles reach across the ranks' borders, and over several cells where they are stretched.
+talus_compare(balls_2d CPDI_FLIP "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = FLIP")
+talus_compare(disk_2d CPDI_APIC "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = APIC")
+talus_compare(balls_2d CPLS "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = CPLS")
+talus_compare(balls_3d CPDI_TPIC "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = TPIC")
+talus_compare(balls_3d CPLS "1;2" "Kernel/Type = CPDI" "Transfer/Type = CPLS")
+talus_compare(stretch_2d CPDI_TPIC "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = TPIC")
+talus_compare(stretch_2d CPLS "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = CPLS")
 foreach(pool pool_2d pool_3d)
   talus_compare(${pool} projection_TPIC "${ranks}"
     "Kernel/Boundary treatment = WLS separable" "Transfer/Slip projection = true")

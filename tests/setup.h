@@ -91,7 +91,8 @@ namespace Test
       kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "")),
       transfer(parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", ""))
     {
-      kernel->attach(grid.lattice, parameters.make<Treatment<dim>>("/Kernel", "Boundary treatment", "WLS", ""));
+      kernel->choose(parameters);
+      kernel->attach(grid);
       const auto material_names = parameters.names("/Materials", "");
       for (const auto &name : material_names)
         materials.push_back(parameters.make<Material>("/Materials/" + name, "Type", "linear elastic", ""));
@@ -102,6 +103,7 @@ namespace Test
         boundary.conditions.push_back(parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", ""));
       for (const auto &name : parameters.names("/Tractions", ""))
         tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
+      kernel->add_fields(particles);
       transfer->add_fields(particles);
       parameters.parse();
       accelerate(dim == 2 ? "0; 0" : "0; 0; 0");
@@ -123,6 +125,7 @@ namespace Test
       boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);
       scatter(time);
       grid.fields.add_copies_to_owners();
+      transfer->complete(grid);
       grid.update_velocity(dt);
       boundary.apply(time + dt, dt > 0 ? dt : 1., grid);
       grid.fields.update_copies();
@@ -152,6 +155,12 @@ namespace Test
       return x;
     }
 
+    /** The node of an entry of a stencil. */
+    unsigned int node(const Stencil<dim> &stencil, const unsigned int k) const
+    {
+      return grid.lattice.node[stencil.place[k]];
+    }
+
     /** The stencil of one particle. */
     Stencil<dim> stencil(const unsigned int p) const
     {
@@ -177,8 +186,8 @@ namespace Test
     {
       for (auto &body : bodies)
         body->shape->create(grid.lattice.h);
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, kernel->n_nodes());
-      particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
+      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, transfer->reach(*kernel));
+      particles.set_reach(grid, transfer->reach(*kernel));
       smoothing.add_fields(materials, particles);
       if (!bodies.empty())
         particles.create(grid, bodies, materials);

@@ -85,11 +85,11 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight, const unsigned int n)
+  void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight, const Reach &reach)
   {
     create_triangulation(weight);
     number_nodes();
-    fill_tables(n);
+    fill_tables(reach.layers);
   }
 
   template <int dim>
@@ -201,9 +201,7 @@ namespace Talus
   template <int dim>
   void Grid<dim>::clear()
   {
-    for (const unsigned int i : active_nodes)
-      std::fill_n(fields[i], fields.stride, 0.);
-    fields.clear_copies();
+    fields.clear(active_nodes);
     fields.mirrored_force.fill(0.);
   }
 

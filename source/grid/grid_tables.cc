@@ -52,7 +52,7 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::fill_tables(const unsigned int n)
+  void Grid<dim>::fill_tables(const unsigned int n_layers)
   {
     typename Lattice<dim>::Index first, last;
     first.fill(std::numeric_limits<int>::max());
@@ -69,6 +69,7 @@ namespace Talus
       }
     if (first[0] > last[0]) // a rank without cells
       first.fill(0), last.fill(0);
+    lattice.padding = std::max(3, static_cast<int>(n_layers) + 2);
     lattice.resize_tables(first, last);
 
     std::vector<types::global_dof_index> dofs(lattice.node.size(), numbers::invalid_dof_index); // of the nodes
@@ -86,7 +87,7 @@ namespace Talus
       }
     IndexSet known;
     DoFTools::extract_locally_relevant_dofs(dof_handler, known);
-    learn_second_layer(n, dofs, known);
+    learn_layers(n_layers, dofs, known);
 
     // Local numbers: owned nodes, then the others by global number.
     const IndexSet owned  = dof_handler.locally_owned_dofs();
@@ -104,42 +105,51 @@ namespace Talus
         node_index[node]        = lattice.table_entry(entry);
         places[node]            = entry;
       }
-    fields.reinit(owned, known, communicator, places, lattice.node.size());
+    nodes.reinit(owned, known, communicator, places, lattice.node.size());
+    fields.reinit(nodes);
     lattice.find_images();
     is_active.assign(fields.n_local(), true);
     collect_active_nodes();
   }
 
   template <int dim>
-  void Grid<dim>::learn_second_layer(const unsigned int n, std::vector<types::global_dof_index> &dofs, IndexSet &known)
+  void Grid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs, IndexSet &known)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
     using Index = typename Lattice<dim>::Index;
-    // By rank, the entries around those of my cells that it has as ghosts.
-    std::map<unsigned int, std::set<int>> cells, nodes;
+    // Calls body(index) for the entries around a cell, as far as the tables reach.
+    const auto around = [&](const int entry, const int distance, const int n, const auto &body) {
+      Index first = lattice.table_entry(entry);
+      for (unsigned int d = 0; d < dim; ++d)
+        first[d] -= distance;
+      for_each_index(first, n, [&](const Index &index) {
+        if (lattice.is_in_table(index))
+          body(lattice.table_index(index));
+      });
+    };
+
+    // My cells with the ranks that have them as ghosts: these ranks learn all that I know of what is near.
+    std::vector<std::pair<int, std::set<unsigned int>>> shared;
     for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
       if (lattice.cell[entry] != lattice.missing)
       {
-        Index before = lattice.table_entry(entry);
-        for (unsigned int d = 0; d < dim; ++d)
-          --before[d];
         std::set<unsigned int> ranks;
-        for_each_index(before, 3, [&](const Index &index) {
-          const unsigned int rank = lattice.owner[lattice.table_index(index)];
-          if (rank != lattice.missing && rank != my_rank)
-            ranks.insert(rank);
+        around(entry, 1, 3, [&](const int at) {
+          if (lattice.owner[at] != lattice.missing && lattice.owner[at] != my_rank)
+            ranks.insert(lattice.owner[at]);
         });
-        for (const unsigned int rank : ranks)
-        {
-          for_each_index(before, 3, [&](const Index &index) { cells[rank].insert(lattice.table_index(index)); });
-          for_each_index(before, 4, [&](const Index &index) { nodes[rank].insert(lattice.table_index(index)); });
-        }
+        if (!ranks.empty())
+          shared.emplace_back(entry, ranks);
       }
 
-    // Tells each rank what this one knows of the entries, as lattice index and number.
-    const auto share = [&](const std::map<unsigned int, std::set<int>> &entries, auto &table) {
+    // Tells each rank what this one knows of the cells and nodes `distance` cells away, as lattice index and number.
+    const auto share = [&](const int distance, const int n, auto &table) {
+      std::map<unsigned int, std::set<int>> entries;
+      for (const auto &[cell, ranks] : shared)
+        for (const unsigned int rank : ranks)
+          around(cell, distance, n, [&](const int at) { entries[rank].insert(at); });
       std::map<unsigned int, std::vector<types::global_dof_index>> messages;
       for (const auto &[rank, of_rank] : entries)
         for (const int entry : of_rank)
@@ -154,26 +164,29 @@ namespace Talus
         {
           Index index;
           std::copy_n(message.begin() + i, dim, index.begin());
-          table[lattice.table_index(index)] = message[i + dim];
+          if (lattice.is_in_table(index))
+            table[lattice.table_index(index)] = message[i + dim];
         }
     };
-    share(cells, lattice.owner);
-    if (n > 3)
+    // Who knows what is `layer` cells away from each of its own cells tells its neighbours, who then know one layer more.
+    for (int layer = 1; layer < std::max(2, static_cast<int>(n_layers)); ++layer)
     {
-      share(nodes, dofs);
-      std::vector<types::global_dof_index> all;
-      std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all),
-                   [](const auto dof) { return dof != numbers::invalid_dof_index; });
-      std::sort(all.begin(), all.end());
-      known.add_indices(all.begin(), all.end());
-      known.compress();
+      share(layer, 2 * layer + 1, lattice.owner);
+      if (layer < static_cast<int>(n_layers))
+        share(layer, 2 * layer + 2, dofs);
     }
+    std::vector<types::global_dof_index> all;
+    std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all),
+                 [](const auto dof) { return dof != numbers::invalid_dof_index; });
+    std::sort(all.begin(), all.end());
+    known.add_indices(all.begin(), all.end());
+    known.compress();
   }
 
 #define INSTANTIATE(dim)                                                                                               \
   template void Grid<dim>::number_nodes();                                                                             \
   template void Grid<dim>::fill_tables(const unsigned int);                                                            \
-  template void Grid<dim>::learn_second_layer(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
+  template void Grid<dim>::learn_layers(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,5 +1,4 @@
 #include <talus/core/registry.h>
-#include <talus/kernels/moment_matrix.h>
 #include <talus/kernels/treatment.h>
 
 namespace Talus
@@ -25,16 +24,6 @@ namespace Talus
     public:
       using Treatment<dim>::Treatment;
 
-      void correct_axes(std::array<Axis, dim> &axes) const override
-      {
-        for (Axis &axis : axes)
-        {
-          if (axis.has_lower_boundary)
-            adjust(axis, axis.begin, axis.begin + 1);
-          if (axis.has_upper_boundary)
-            adjust(axis, axis.end - 1, axis.end - 2);
-        }
-      }
       void correct_factors(LatticeFactors<dim> &factors) const override
       {
         for (unsigned int d = 0; d < dim; ++d)
@@ -73,19 +62,6 @@ namespace Talus
         }
       }
 
-      static void adjust(Axis &axis, const unsigned int boundary, const unsigned int next)
-      {
-        axis.weight[boundary] *= axis.boundary_scale;
-        axis.derivative[boundary] *= axis.boundary_scale;
-        axis.weight[next]     = 1;
-        axis.derivative[next] = 0;
-        for (unsigned int k = axis.begin; k < axis.end; ++k)
-          if (k != next)
-          {
-            axis.weight[next] -= axis.weight[k];
-            axis.derivative[next] -= axis.derivative[k];
-          }
-      }
     };
 
     /**
@@ -131,27 +107,6 @@ namespace Talus
     public:
       using Treatment<dim>::Treatment;
 
-      void correct_stencil(Stencil<dim> &stencil, const std::array<double, dim> &inverse_h) const override
-      {
-        using Moments      = MomentMatrix<dim>;
-        const auto inverse = Moments::inverse(Moments::moments(stencil, stencil.weight, inverse_h));
-        for (unsigned int k = 0; k < stencil.size; ++k)
-        {
-          const auto   P      = Moments::basis(stencil, k, inverse_h);
-          const double weight = stencil.weight[k];
-          double       C[dim + 1];
-          for (unsigned int i = 0; i <= dim; ++i)
-          {
-            C[i] = 0;
-            for (unsigned int j = 0; j <= dim; ++j)
-              C[i] += inverse[i][j] * P[j];
-          }
-          stencil.weight[k] = C[0] * weight; // Eq. (58): C_1 + C_2 . offset
-          for (unsigned int d = 0; d < dim; ++d)
-            stencil.gradient[d][k] = C[d + 1] * inverse_h[d] * weight; // Eq. (62): C_2 + C_3 . offset
-        }
-      }
-
       void correct_factors(LatticeFactors<dim> &factors) const override
       {
         using Number = typename LatticeFactors<dim>::Number;
@@ -190,27 +145,6 @@ namespace Talus
     public:
       using Treatment<dim>::Treatment;
 
-      void correct_axes(std::array<Axis, dim> &axes) const override
-      {
-        for (Axis &axis : axes)
-          if (axis.is_truncated)
-          {
-            double m0 = 0, m1 = 0, m2 = 0;
-            for (unsigned int k = axis.begin; k < axis.end; ++k)
-            {
-              m0 += axis.weight[k];
-              m1 += axis.weight[k] * axis.offset[k];
-              m2 += axis.weight[k] * axis.offset[k] * axis.offset[k];
-            }
-            const double determinant = m0 * m2 - m1 * m1;
-            for (unsigned int k = axis.begin; k < axis.end; ++k)
-            {
-              axis.derivative[k] = axis.weight[k] * (m0 * axis.offset[k] - m1) / determinant;
-              axis.weight[k] *= (m2 - m1 * axis.offset[k]) / determinant;
-            }
-          }
-      }
-
       void correct_factors(LatticeFactors<dim> &factors) const override
       {
         using Number = typename LatticeFactors<dim>::Number;
@@ -248,54 +182,6 @@ namespace Talus
     {
     public:
       using Treatment<dim>::Treatment;
-
-      void correct_stencil(Stencil<dim> &stencil, const std::array<double, dim> &inverse_h) const override
-      {
-        // phi_i = w_i a . P_i with M a = e_1; so a_,d = -M^-1 M_,d a, and P_i,d = -e_d / h.
-        using Moments                  = MomentMatrix<dim>;
-        constexpr unsigned int n       = dim + 1;
-        const auto             M       = Moments::moments(stencil, stencil.weight, inverse_h);
-        const auto             inverse = Moments::inverse(M);
-        double                 a[n], da[dim][n];
-        for (unsigned int i = 0; i < n; ++i)
-          a[i] = inverse[i][0];
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          // M_,d = sum w_,d P P^T + w (P_,d P^T + P P_,d^T)
-          auto dM = Moments::moments(stencil, stencil.gradient[d], inverse_h);
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            dM[d + 1][i] -= inverse_h[d] * M[0][i];
-            dM[i][d + 1] -= inverse_h[d] * M[i][0];
-          }
-          double dM_a[n] = {};
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int j = 0; j < n; ++j)
-              dM_a[i] += dM[i][j] * a[j];
-          for (unsigned int i = 0; i < n; ++i)
-          {
-            da[d][i] = 0;
-            for (unsigned int j = 0; j < n; ++j)
-              da[d][i] -= inverse[i][j] * dM_a[j];
-          }
-        }
-        for (unsigned int k = 0; k < stencil.size; ++k)
-        {
-          const auto P   = Moments::basis(stencil, k, inverse_h);
-          double     P_a = 0;
-          for (unsigned int i = 0; i < n; ++i)
-            P_a += P[i] * a[i];
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            double P_da = 0;
-            for (unsigned int i = 0; i < n; ++i)
-              P_da += P[i] * da[d][i];
-            stencil.gradient[d][k] =
-              stencil.gradient[d][k] * P_a + stencil.weight[k] * (P_da - inverse_h[d] * a[d + 1]);
-          }
-          stencil.weight[k] *= P_a;
-        }
-      }
 
       void correct_factors(LatticeFactors<dim> &factors) const override
       {

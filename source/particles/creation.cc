@@ -137,6 +137,8 @@ namespace Talus
     const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
     this->material_begin.assign(n_materials + 1, 0);
     sort();
+    if (reach.at_corners)
+      check_initial_corners(bodies);
     return_free_memory();
   }
 

@@ -1,6 +1,7 @@
 #include <talus/core/batch.h>
 #include <talus/core/exceptions.h>
 #include <talus/core/traffic.h>
+#include <talus/particles/corners.h>
 #include <talus/particles/particles.h>
 
 #include <algorithm>
@@ -12,14 +13,18 @@ namespace Talus
   using namespace dealii;
 
   template <int dim>
-  void Particles<dim>::set_stencil(Grid<dim> &grid, const unsigned int n, const double shift)
+  void Particles<dim>::set_reach(Grid<dim> &grid, const Reach &reach)
   {
     this->grid      = &grid;
-    coverage        = grid.lattice.coverage(n);
-    stencil_shift   = shift;
-    n_stencil_nodes = n;
+    this->reach     = reach;
+    coverage        = grid.lattice.coverage(reach.n);
+    stencil_shift   = reach.shift;
+    n_stencil_nodes = reach.n;
+    if (reach.at_corners)
+      half_edges = Corners<dim>::add_field(*this);
 
     knows_all_stencils = Utilities::MPI::n_mpi_processes(grid.communicator) == 1;
+    update_open_places();
   }
 
   template <int dim>
@@ -27,6 +32,7 @@ namespace Talus
   {
     outside           = none;
     needs_synchronise = false;
+    needs_activation  = false;
   }
 
   template <int dim>
@@ -74,6 +80,8 @@ namespace Talus
       }
     });
     needs_synchronise = needs_synchronise || strays;
+    if (reach.at_corners)
+      look_at_corners(begin, end);
   }
 
   template <int dim>
@@ -197,6 +205,8 @@ namespace Talus
       for (unsigned int i = n_filled; i < leavers.size(); ++i)
         is_gone[leavers[i]] = true;
       sort(is_gone);
+      if (reach.at_corners)
+        check_corners_are_known();
       return;
     }
     for (unsigned int i = leavers.size(); i-- > n_filled;)
@@ -206,6 +216,8 @@ namespace Talus
       this->resize(this->size() - 1);
     }
     this->material_begin.back() = this->size();
+    if (reach.at_corners)
+      check_corners_are_known();
   }
 
   template <int dim>
@@ -264,6 +276,10 @@ namespace Talus
       const auto first                   = first_node(p);
       begins[lattice.table_index(first)] = 1;
     }
+    if (reach.at_corners)
+      for_each_corner(0, this->size(), [&](const unsigned int, const unsigned int, const auto &index) {
+        begins[lattice.table_index(index)] = 1;
+      });
     return begins;
   }
 

@@ -36,9 +36,8 @@ namespace Talus
     model{grid, particles, *kernel, *transfer, boundary, materials, acceleration, tractions}, probes(parameters),
     acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
-    kernel->attach(grid.lattice,
-                   parameters.make<Treatment<dim>>("/Kernel", "Boundary treatment", "WLS",
-                                                   "What happens to the kernel where nodes are missing."));
+    kernel->choose(parameters);
+    kernel->attach(grid);
 
     const auto material_names =
       parameters.names("/Materials", "Names of the materials; each has a subsection of its name.");
@@ -62,6 +61,7 @@ namespace Talus
     tractions.names = parameters.names("/Tractions", "Names of the tractions; each has a subsection of its name.");
     for (const auto &name : tractions.names)
       tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
+    kernel->add_fields(particles);
     transfer->add_fields(particles);
     add_reference(parameters, material_names);
 
@@ -137,8 +137,8 @@ namespace Talus
     Timing::Scope scope(timing, set_up_section);
     for (auto &body : bodies)
       body->shape->create(grid.lattice.h);
-    grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, kernel->n_nodes());
-    particles.set_stencil(grid, kernel->n_nodes(), kernel->shift());
+    grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, transfer->reach(*kernel));
+    particles.set_reach(grid, transfer->reach(*kernel));
     smoothing.add_fields(materials, particles);
     particles.create(grid, bodies, materials);
     for (auto &condition : boundary.conditions)

@@ -26,6 +26,7 @@ namespace Talus
     {
       Timing::Scope scope(timing.timing, timing.grid);
       grid.fields.add_copies_to_owners();
+      transfer.complete(grid);
       grid.update_velocity(dt);
       boundary.apply(time + dt, dt, grid);
       grid.fields.update_copies();

@@ -119,7 +119,8 @@ namespace Talus
     const bool   has_failed = any(!is_valid) || particles.outside != particles.none;
 
     std::vector<double> maxima = {greatest(signal_speed), static_cast<double>(particles.needs_synchronise),
-                                  static_cast<double>(has_failed), displacement};
+                                  static_cast<double>(has_failed), displacement,
+                                  static_cast<double>(particles.needs_activation)};
     std::vector<double> sums   = {sum(total_mass), sum(kinetic_energy), power};
     sums.insert(sums.end(), model.grid.lost_momentum.begin_raw(), model.grid.lost_momentum.end_raw());
     for (const auto &condition : model.boundary.conditions)
@@ -141,6 +142,7 @@ namespace Talus
     result.needs_synchronise = maxima[1] > 0;
     result.has_failed        = maxima[2] > 0;
     result.displacement      = maxima[3];
+    result.needs_activation  = maxima[4] > 0;
     result.mass              = sums[0];
     result.kinetic_energy    = sums[1];
     result.body_force_power  = sums[2];

@@ -31,9 +31,10 @@ namespace Talus
     }
     // Active nodes reach one spacing beyond the stencils, as far as the particle's rank knows them: who comes from
     // another rank may bring new ones.
-    if (since_activation > 1 || has_new_nodes)
+    if (since_activation > 1 || has_new_nodes || now.needs_activation)
     {
       model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
+      model.particles.update_open_places();
       model.boundary.select(model.grid);
       since_activation = 0;
     }

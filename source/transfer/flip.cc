@@ -1,24 +1,10 @@
 #include <talus/core/registry.h>
-#include <talus/transfer/affine_transfer.h>
+#include <talus/transfer/flip.h>
 
 namespace Talus
 {
   namespace
   {
-    /** FLIP, Eq. (22): the velocity changes by the grid's acceleration. */
-    template <int dim>
-    struct Flip : Scheme<dim>
-    {
-      static constexpr bool gathers_increment = true;
-
-      template <class Batch>
-      void update(const TransferArrays<dim> &arrays, const Batch &batch,
-                  const Gathered<dim, typename Batch::Number> &sum) const
-      {
-        store_vector<dim>(batch, arrays.velocity, load_vector<dim>(batch, arrays.velocity) + sum.increment);
-      }
-    };
-
     /** PIC, Eq. (23): the velocity is that of the grid. */
     template <int dim>
     struct Pic : Scheme<dim>

@@ -285,9 +285,10 @@ namespace Talus
           for (unsigned int e = 0; e < dim; ++e)
             numbers[Fields::force + d] += flux[d][e] * stencil.gradient[e][k];
         }
-        grid.fields.count_mirrored(numbers, stencil.beyond[k]);
+        const unsigned int beyond = stencil.has_images ? stencil.beyond[k] : 0;
+        grid.fields.count_mirrored(numbers, beyond);
         for (unsigned int lane = Fields::force; lane < Fields::force + dim; ++lane)
-          grid.fields[stencil.node[k]][lane] += Fields::mirror(stencil.beyond[k])[lane] * numbers[lane];
+          grid.fields.at_place(stencil.place[k])[lane] += Fields::mirror(beyond)[lane] * numbers[lane];
       }
     }
   }

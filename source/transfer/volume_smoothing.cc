@@ -195,8 +195,8 @@ namespace Talus
                                     const double alpha, Particles<dim> &particles, Grid<dim> &grid) const
   {
     using Fields        = NodalFields<dim>;
-    const auto function = kernel.lattice_function();
-    AssertThrow(function, ExcMessage("Smoothing of J needs a kernel that is a product over the axes."));
+    const auto form = kernel.lattice_form();
+    AssertThrow(form, ExcMessage("Smoothing of J needs a kernel that is a product over the axes."));
     std::visit(
       [&](const auto &function) {
         Passes<dim, std::decay_t<decltype(function)>> passes(function, *treatment, range, material.density, gradient,
@@ -214,7 +214,7 @@ namespace Talus
         grid.fields.update_copies();
         passes.gather(alpha);
       },
-      *function);
+      form->function);
   }
 
   template class VolumeSmoothing<2>;

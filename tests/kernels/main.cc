@@ -12,6 +12,8 @@ template <int dim>
 void definition();
 template <int dim>
 void closed_form();
+template <int dim>
+void cpdi();
 void negative_weights();
 void polynomials();
 
@@ -30,6 +32,8 @@ int main(int argc, char **argv)
                     {"definition 3D", definition<3>},
                     {"closed form 2D", closed_form<2>},
                     {"closed form 3D", closed_form<3>},
+                    {"CPDI 2D", cpdi<2>},
+                    {"CPDI 3D", cpdi<3>},
                     {"negative weights", negative_weights},
                     {"polynomials", polynomials}});
 }

@@ -21,7 +21,7 @@ namespace
         slope[d][d] = -1;
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        const dealii::Tensor<1, dim> offset = setup.grid.node_position(stencil.node[k]) - x;
+        const dealii::Tensor<1, dim> offset = setup.grid.node_position(setup.node(stencil, k)) - x;
         sum += stencil.weight[k];
         for (unsigned int d = 0; d < dim; ++d)
         {

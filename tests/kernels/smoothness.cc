@@ -16,7 +16,7 @@ namespace
     Nodes<dim> nodes;
     for (unsigned int k = 0; k < stencil.size; ++k)
     {
-      auto &values = nodes[stencil.node[k]];
+      auto &values = nodes[stencil.place[k]];
       values[0]    = stencil.weight[k];
       for (unsigned int d = 0; d < dim; ++d)
         values[d + 1] = stencil.gradient[d][k];

@@ -147,7 +147,7 @@ namespace
       const auto stencil = setup.at(x);
       for (unsigned int k = 0; k < stencil.size; ++k)
       {
-        auto &node = nodes[setup.grid.node_index[stencil.node[k]]];
+        auto &node = nodes[setup.grid.node_index[setup.node(stencil, k)]];
         raise(weight_error, stencil.weight[k] - node.weight);
         for (unsigned int d = 0; d < dim; ++d)
           raise(gradient_error, lattice.h[d] * (stencil.gradient[d][k] - node.gradient[d]));
@@ -227,7 +227,7 @@ void closed_form()
     {
       const auto stencil = setup.at(x);
       for (unsigned int k = 0; k < stencil.size; ++k)
-        if (setup.grid.node_position(stencil.node[k]).distance(node) < 1e-10)
+        if (setup.grid.node_position(setup.node(stencil, k)).distance(node) < 1e-10)
         {
           is_found       = true;
           weight_error   = stencil.weight[k] - value.weight * others;

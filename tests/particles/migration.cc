@@ -65,7 +65,7 @@ namespace
         holds = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
         if (p > set.material_begin[m])
         {
-          const double shift = setup.kernel->shift();
+          const double shift = setup.kernel->reach().shift;
           auto         here = cell_of(setup, p, shift), before = cell_of(setup, p - 1, shift);
           std::reverse(here.begin(), here.end());
           std::reverse(before.begin(), before.end());

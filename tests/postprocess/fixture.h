@@ -85,9 +85,9 @@ namespace Test
 
     void create()
     {
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, 2);
+      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, Reach{2, 0});
       particles.create(grid, bodies, materials);
-      particles.set_stencil(grid, 2, 0);
+      particles.set_reach(grid, {2, 0});
     }
 
     static std::string text(const std::string &output_entries)

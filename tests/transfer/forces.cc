@@ -14,7 +14,7 @@ namespace
   {
     Tensor<1, dim> sum;
     for (unsigned int k = 0; k < stencil.size; ++k)
-      sum += stencil.weight[k] * node_vector(setup, stencil.node[k], lane);
+      sum += stencil.weight[k] * node_vector(setup, setup.node(stencil, k), lane);
     return sum;
   }
 
@@ -126,7 +126,7 @@ void motion()
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
             L[d][e] +=
-              setup.grid.fields[stencils[p].node[k]][NodalFields<dim>::velocity + d] * stencils[p].gradient[e][k];
+              setup.grid.fields.at_place(stencils[p].place[k])[NodalFields<dim>::velocity + d] * stencils[p].gradient[e][k];
       raise(gradient_error, (matrix(setup, setup.particles.grad_v, p) - L).norm() / L.norm());
     }
     check(transfer + ": position", x_error, 1e-12); // round-off of x over dt
@@ -176,7 +176,7 @@ void nodal_force()
           Tensor<1, dim> gradient;
           for (unsigned int d = 0; d < dim; ++d)
             gradient[d] = stencil.gradient[d][k];
-          force[stencil.node[k]] += particles.component(particles.mass, 0)[p] * stencil.weight[k] * a -
+          force[setup.node(stencil, k)] += particles.component(particles.mass, 0)[p] * stencil.weight[k] * a -
                                     particles.component(particles.volume, 0)[p] * (sigma * gradient);
         }
       }

@@ -24,11 +24,19 @@ DECLARE(smoothing)
 DECLARE(traction_sums)
 DECLARE(traction_work)
 DECLARE(traction_errors)
+DECLARE(imls_on_a_lattice)
+DECLARE(cpls_affine)
+void imls_at_a_node();
 
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
-                   {{"mass and momentum 2D", mass_and_momentum<2>},
+                   {{"IMLS at a node", imls_at_a_node},
+                    {"IMLS on a lattice 2D", imls_on_a_lattice<2>},
+                    {"IMLS on a lattice 3D", imls_on_a_lattice<3>},
+                    {"CPLS: affine velocity 2D", cpls_affine<2>},
+                    {"CPLS: affine velocity 3D", cpls_affine<3>},
+                    {"mass and momentum 2D", mass_and_momentum<2>},
                     {"mass and momentum 3D", mass_and_momentum<3>},
                     {"angular momentum of APIC 2D", angular_momentum_of_apic<2>},
                     {"angular momentum of APIC 3D", angular_momentum_of_apic<3>},

@@ -275,7 +275,7 @@ void projection_definition()
           for (unsigned int d = 0; d < dim; ++d)
             offset[d] = stencil.offset[d][k];
           const Tensor<1, dim> v    = velocity(expected, p) + L * offset;
-          double              *node = expected.grid.fields[stencil.node[k]];
+          double              *node = expected.grid.fields.at_place(stencil.place[k]);
           node[0] += m * stencil.weight[k];
           for (unsigned int d = 0; d < dim; ++d)
             node[NodalFields<dim>::momentum + d] += m * stencil.weight[k] * v[d];

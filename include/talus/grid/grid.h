@@ -2,6 +2,7 @@
 
 #include <talus/grid/lattice.h>
 #include <talus/grid/nodal_fields.h>
+#include <talus/grid/reach.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/distributed/tria.h>
@@ -25,10 +26,10 @@ namespace Talus
     Grid(const std::string &section, MPI_Comm communicator);
 
     /**
-     * Builds triangulation, nodes, lattice and fields for stencils of `n` nodes per axis. `weight` estimates
+     * Builds triangulation, nodes, lattice and fields for what kernels and transfers ask for. `weight` estimates
      * a cell's work (its number of particles); the ranks' shares are balanced by it. Collective.
      */
-    void create(const std::function<unsigned int(const CellIterator &)> &weight, const unsigned int n);
+    void create(const std::function<unsigned int(const CellIterator &)> &weight, const Reach &reach);
 
     /** Sets up the triangulation's extents alone; called by create(). */
     void parse_parameters(dealii::ParameterHandler &prm) override;
@@ -73,6 +74,7 @@ namespace Talus
     dealii::parallel::distributed::Triangulation<dim> triangulation;
     dealii::DoFHandler<dim>                           dof_handler;
     Lattice<dim>                                      lattice;
+    Nodes                                             nodes;
     NodalFields<dim>                                  fields;
     std::vector<typename Lattice<dim>::Index>         node_index; // lattice index of each local node
 
@@ -89,15 +91,15 @@ namespace Talus
   private:
     void create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight);
     void number_nodes();
-    void fill_tables(const unsigned int n);
+    void fill_tables(const unsigned int n_layers);
 
     /**
-     * What deal.II does not tell of the cells around this rank's ghost cells, their owners do: who owns them and, if
-     * stencils have more than three nodes, the numbers of their nodes. Particles with such stencils can then stray
-     * into ghost cells, as others can without it; the owner is who a particle that goes farther is sent to.
+     * What deal.II does not tell of the cells beyond this rank's ghost cells, which are the first layer, their owners
+     * do: of two layers at least who owns them, and of `n_layers` the numbers of their nodes. The owner is who a
+     * particle that goes farther is sent to; with the nodes, particles whose stencils reach farther can be kept.
      */
-    void learn_second_layer(const unsigned int n, std::vector<dealii::types::global_dof_index> &dofs,
-                            dealii::IndexSet &known);
+    void learn_layers(const unsigned int n_layers, std::vector<dealii::types::global_dof_index> &dofs,
+                      dealii::IndexSet &known);
 
     void collect_active_nodes();
 

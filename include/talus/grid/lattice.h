@@ -41,10 +41,10 @@ namespace Talus
     using Faces = unsigned char; // a set of faces of the box: bit 2 d is the lower, 2 d + 1 the upper one of axis d
 
     static constexpr unsigned int missing = static_cast<unsigned int>(-1);
-    static constexpr int          padding = 3;
 
     std::array<double, dim> origin, h, inverse_h;
     Index                   n_cells;
+    int                     padding = 3; // entries around what this rank has of deal.II
 
     // The tables' box: its first lattice index, its extent, and the step from one entry to the next.
     Index first, extent, stride;

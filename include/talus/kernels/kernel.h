@@ -1,16 +1,29 @@
 #pragma once
 
+#include <talus/core/parameters.h>
 #include <talus/grid/lattice.h>
+#include <talus/grid/reach.h>
 #include <talus/kernels/functions.h>
 #include <talus/kernels/stencil.h>
 #include <talus/kernels/treatment.h>
 #include <talus/particles/working_set.h>
 
-#include <memory>
 #include <optional>
 
 namespace Talus
 {
+  template <int dim>
+  class Grid;
+
+  /** A kernel that is a product over the axes of a lattice, but for what a treatment does at its faces. */
+  template <int dim>
+  struct LatticeForm
+  {
+    LatticeFunction       function;
+    const Lattice<dim>   &lattice;
+    const Treatment<dim> &treatment;
+  };
+
   /** A kernel function: gives particles their stencils. */
   template <int dim>
   class Kernel : public dealii::ParameterAcceptor
@@ -18,25 +31,25 @@ namespace Talus
   public:
     using dealii::ParameterAcceptor::ParameterAcceptor;
 
-    /** Sets the lattice on which stencils are found, and what happens at its edge. */
-    virtual void attach(const Lattice<dim> &lattice, std::unique_ptr<Treatment<dim>> treatment)
-    {
-      this->lattice   = &lattice;
-      this->treatment = std::move(treatment);
-    }
+    /** Particles in one call of evaluate() at most. */
+    static constexpr unsigned int max_batch = 8;
 
-    /** Fills `stencils` with those of particles begin .. end - 1. */
+    /** Makes the parts that entries of its section choose. */
+    virtual void choose(Parameters &) {}
+
+    /** Adds what the kernel needs of particles beyond the common fields. */
+    virtual void add_fields(WorkingSet<dim> &) {}
+
+    /** Sets the grid on which stencils are found. */
+    virtual void attach(const Grid<dim> &grid) = 0;
+
+    /** Fills `stencils` with those of particles begin .. end - 1, at most max_batch. */
     virtual void evaluate(const WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end,
                           Stencil<dim> *stencils) const = 0;
 
-    /** A stencil is the n_nodes() nodes per axis from floor(lattice coordinate - shift()). */
-    virtual unsigned int n_nodes() const = 0;
-    virtual double       shift() const   = 0;
+    virtual Reach reach() const = 0;
 
-    /** The function of which the kernel is a product over the axes, if it is one: batched loops run for these. */
-    virtual std::optional<LatticeFunction> lattice_function() const { return {}; }
-
-    const Lattice<dim>             *lattice = nullptr;
-    std::unique_ptr<Treatment<dim>> treatment;
+    /** The form for which batched loops are compiled, if the kernel has it; all others run through lists. */
+    virtual std::optional<LatticeForm<dim>> lattice_form() const { return {}; }
   };
 } // namespace Talus

@@ -1,24 +1,57 @@
 #pragma once
 
+#include <deal.II/base/aligned_vector.h>
+
+#include <array>
+
 namespace Talus
 {
   /**
-   * The nodes a particle talks to, each with weight phi_ip [1], gradient
-   * grad phi_ip [1/length] and offset x_i - x_p [length]. This is all that
-   * transfers know of kernels.
+   * The nodes a particle talks to, as a list of any length: for each its place (see Nodes), weight phi_ip [1], gradient
+   * grad phi_ip [1/length] and offset x_i - x_p [length]. A node may be there more than once; all sums are linear in
+   * the weights. This is all that list loops know of kernels.
    */
   template <int dim>
-  struct Stencil
+  class Stencil
   {
-    static constexpr unsigned int capacity = dim == 2 ? 16 : 64;
+  public:
+    Stencil() { reserve(16); }
 
-    unsigned int size;
-    unsigned int node[capacity]; // local node numbers
-    double       weight[capacity];
-    double       offset[dim][capacity];
-    double       gradient[dim][capacity];
+    /** Makes room for n nodes and forgets what there was. */
+    void reserve(const unsigned int n)
+    {
+      size       = 0;
+      has_images = false;
+      if (n <= place.size())
+        return;
+      const unsigned int capacity = (n + 7) / 8 * 8;
+      place.resize(capacity);
+      beyond.resize(capacity);
+      numbers.resize_fast((1 + 2 * dim) * capacity);
+      weight = numbers.data();
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        offset[d]   = numbers.data() + (1 + d) * capacity;
+        gradient[d] = numbers.data() + (1 + dim + d) * capacity;
+      }
+    }
 
-    unsigned char beyond[capacity];     // faces of the box in which the node stands for its mirror image; mostly none
-    bool          is_at_slip_wall[dim]; // nodes are missing along this axis, beyond a slip wall
+    unsigned int                          size = 0;
+    dealii::AlignedVector<unsigned int>   place;
+    double                               *weight = nullptr;
+    std::array<double *, dim>             offset, gradient;
+
+    // Where a treatment mirrors nodes in slip walls.
+    bool                                 has_images = false;
+    dealii::AlignedVector<unsigned char> beyond; // faces of the box in which the node stands for its mirror image
+    std::array<bool, dim> is_at_slip_wall{};     // nodes are missing along this axis, beyond a slip wall
+
+    Stencil(const Stencil &)            = delete;
+    Stencil &operator=(const Stencil &) = delete;
+    Stencil(Stencil &&)                 = default;
+    Stencil &operator=(Stencil &&)      = default;
+
+  private:
+    dealii::AlignedVector<double> numbers; // of all arrays
   };
 } // namespace Talus

@@ -32,12 +32,11 @@ namespace Talus
     static unsigned int count(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                               const typename Grid<dim>::CellIterator &cell);
 
-    /**
-     * Tells how far a particle may stray: its stencil is the `n` nodes per axis
-     * from floor(lattice coordinate - shift), and a rank keeps a particle as long
-     * as it knows all of them.
-     */
-    void set_stencil(Grid<dim> &grid, const unsigned int n, const double shift);
+    /** Tells how far a particle may stray: a rank keeps it as long as it knows all nodes within its reach. */
+    void set_reach(Grid<dim> &grid, const Reach &reach);
+
+    /** Finds anew which nodes are active; due after each activation. */
+    void update_open_places();
 
     /**
      * Finds out whether the particles begin .. end - 1 can stay with this rank, and
@@ -71,11 +70,12 @@ namespace Talus
     /** For each entry of the lattice's tables, whether the stencil of a particle begins there. */
     std::vector<char> stencil_beginnings() const;
 
-    unsigned int n_stencil_nodes = 3; // nodes per axis of a stencil
+    unsigned int n_stencil_nodes = 3; // nodes per axis within reach
 
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
+    bool         needs_activation  = false; // set by relocate(): a corner has come to nodes that are not active
     bool         brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
     unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
 
@@ -85,6 +85,19 @@ namespace Talus
   private:
     /** Appends the n particles of the home to the working set, and empties the home. */
     void load(const unsigned int n);
+
+    /** What relocate() does for the corners of the particles' domains. */
+    void look_at_corners(const unsigned int begin, const unsigned int end);
+
+    /** Throws EntryError for a body with a domain that reaches beyond the grid. */
+    void check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &bodies);
+
+    /** Throws RunError if a corner lies where its owner, this rank, does not know the nodes. */
+    void check_corners_are_known();
+
+    /** Calls `body(p, c, index)` for the first nodes within reach of all corners of the particles begin .. end - 1. */
+    template <class Body>
+    void for_each_corner(const unsigned int begin, const unsigned int end, const Body &body) const;
 
     /** Lattice index of the first node of a particle's stencil. */
     typename Lattice<dim>::Index first_node(const unsigned int p) const;
@@ -107,7 +120,10 @@ namespace Talus
     std::vector<unsigned int> body_begin; // first id of each body
     std::vector<unsigned int> body_material;
 
-    std::vector<char> coverage;
+    Reach             reach;
+    std::vector<char> coverage; // places from which on all nodes within reach are known
+    std::vector<char> is_open;  // and active; where domains have corners
+    unsigned int      half_edges         = 0;
     double            stencil_shift      = 0;
     bool              knows_all_stencils = false; // this rank has the nodes of every stencil in the domain
   };

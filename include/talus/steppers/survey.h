@@ -15,6 +15,7 @@ namespace Talus
     double                 signal_speed      = 0; // max (c_p + |v_p|) [length/time], Eq. (35)
     double                 displacement      = 0; // largest of a particle in the last step [spacing]
     bool                   needs_synchronise = false;
+    bool                   needs_activation  = false;
     bool                   has_failed        = false; // a particle broke a limit of validity
     double                 mass              = 0;
     double                 kinetic_energy    = 0;

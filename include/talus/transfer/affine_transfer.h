@@ -1,15 +1,15 @@
 #pragma once
 
 #include <talus/transfer/batched_loops.h>
-#include <talus/transfer/plain_loops.h>
+#include <talus/transfer/list_loops.h>
 #include <talus/transfer/transfer.h>
 
 namespace Talus
 {
   /**
    * The transfer of a scheme that scatters once and gathers once; see Scheme for
-   * how they differ. Kernels that are products over the axes run in batches, all
-   * others, and `is_plain`, one particle at a time.
+   * how they differ. Kernels that are products over the axes run through the compiled
+   * loops, all others, and `is_plain`, through lists.
    */
   template <int dim, template <int> class Scheme>
   class AffineTransfer : public Transfer<dim>
@@ -30,26 +30,27 @@ namespace Talus
       if (!Scheme<dim>::needs_D)
         return;
       const auto here = arrays(particles);
-      Plain::for_each_stencil(particles, kernel, 0, particles.size(),
-                              [&](const unsigned int p, const Stencil<dim> &stencil) {
-                                scheme.initialize(here, SingleBatch{p}, Plain::second_moment(stencil));
-                              });
+      Lists::for_each_list(particles, kernel, 0, particles.size(),
+                           [&](const auto batch, const Stencil<dim> *stencils) {
+                             for (unsigned int l = 0; l < batch.size(); ++l)
+                               scheme.initialize(here, SingleBatch{batch.p + l}, Lists::second_moment(stencils[l]));
+                           });
     }
 
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                          const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) const override
+                          const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) override
     {
       const auto here = arrays(const_cast<WorkingSet<dim> &>(particles)); // read only
-      const auto kind = kernel.lattice_function();
-      if (kind && !this->is_plain)
+      const auto form = kernel.lattice_form();
+      if (form && !this->is_plain)
         std::visit(
           [&](const auto &function) {
-            Batched<decltype(function)>::particle_to_grid(scheme, function, here, particles.size(), kernel,
-                                                          acceleration, time, grid);
+            Batched<decltype(function)>::particle_to_grid(scheme, function, here, particles.size(), *form, acceleration,
+                                                          time, grid);
           },
-          *kind);
+          form->function);
       else
-        Plain::particle_to_grid(scheme, here, particles, kernel, acceleration, time, grid);
+        Lists::particle_to_grid(scheme, here, particles, kernel, acceleration, time, grid);
     }
 
     using Transfer<dim>::grid_to_particle;
@@ -57,14 +58,14 @@ namespace Talus
                             WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end) const override
     {
       const auto here = arrays(particles);
-      const auto kind = kernel.lattice_function();
-      if (kind && !this->is_plain)
+      const auto form = kernel.lattice_form();
+      if (form && !this->is_plain)
         return std::visit(
           [&](const auto &function) {
-            return Batched<decltype(function)>::grid_to_particle(scheme, function, here, kernel, grid, dt, begin, end);
+            return Batched<decltype(function)>::grid_to_particle(scheme, function, here, *form, grid, dt, begin, end);
           },
-          *kind);
-      return Plain::grid_to_particle(scheme, here, particles, kernel, grid, dt, begin, end);
+          form->function);
+      return Lists::grid_to_particle(scheme, here, particles, kernel, grid, dt, begin, end);
     }
 
     dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const override
@@ -73,7 +74,7 @@ namespace Talus
     }
 
   private:
-    using Plain = PlainLoops<dim, Scheme<dim>>;
+    using Lists = ListLoops<dim, Scheme<dim>>;
     template <class Function>
     using Batched = BatchedLoops<dim, Scheme<dim>, std::decay_t<Function>>;
 

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <talus/core/transpose.h>
-#include <talus/grid/nodal_fields.h>
 #include <talus/kernels/lattice_batch.h>
-#include <talus/transfer/scheme.h>
+#include <talus/transfer/contribution.h>
 
 namespace Talus
 {
   /**
-   * What the particles of a batch add to their nodes. It is computed with one
-   * particle in each lane and transposed; then the lanes are the eight numbers of a
-   * node (see NodalFields), and a particle adds one register to each of its nodes.
+   * What the particles of a batch add to their nodes, see Contribution: a particle adds one register to each of them.
    */
   template <int dim, class Scheme, class Function>
   class BatchScatter
@@ -23,7 +19,8 @@ namespace Talus
     using Moments      = LatticeMoments<dim, n, is_affine>;
     using Number       = Simd<native_width>;
     using VectorNumber = dealii::Tensor<1, dim, Number>;
-    using Node         = Simd<8>; // all numbers of a node
+    using Vectors      = Contribution<dim, Scheme>;
+    using Node         = typename Vectors::Node;
 
   public:
     /** The particles' contributions, b being the body force on each. */
@@ -32,7 +29,17 @@ namespace Talus
                                         const LatticeBatch<dim, n> &stencil, const VectorNumber &b,
                                         const Lattice<dim> &lattice)
     {
-      contribution(scheme, arrays, batch, stencil, b, lattice, vectors);
+      dealii::Tensor<2, dim, Number> C;
+      if constexpr (is_affine)
+      {
+        if (!stencil.is_at_face)
+          C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
+        else
+          C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
+      }
+      if (is_affine && stencil.is_at_face && scheme.projects_slip)
+        C = without_wall_shear(C, stencil.is_at_slip_wall);
+      vectors.set(arrays, batch, C, b);
     }
 
     /** Adds those of the first `size` particles to the nodes. */
@@ -51,64 +58,6 @@ namespace Talus
     }
 
   private:
-    /** What each particle adds to its nodes: phi constant + (phi offset or grad phi, by lane) . linear. */
-    struct Vectors
-    {
-      Node constant[width], linear[dim][width];
-    };
-
-    static typename Node::Mask is_force()
-    {
-      double lane[8];
-      for (unsigned int i = 0; i < 8; ++i)
-        lane[i] = i;
-      return Node::load(lane) >= Node(Fields::force);
-    }
-
-    /** The force lanes of a node take the gradient, those of the momentum the offset. */
-    static Node blend(const double moment, const double gradient)
-    {
-      return is_affine ? select(is_force(), Node(gradient), Node(moment)) : Node(gradient);
-    }
-
-    template <class Batch>
-    [[gnu::always_inline]] static void contribution(const Scheme &scheme, const TransferArrays<dim> &arrays,
-                                                    const Batch &batch, const LatticeBatch<dim, n> &stencil,
-                                                    const VectorNumber &b, const Lattice<dim> &lattice, Vectors &add)
-    {
-      const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
-      Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
-      rows[Fields::mass]   = m; // Eq. (13)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        rows[Fields::momentum + d] = m * batch.load(arrays.velocity[d]); // Eq. (15)
-        rows[Fields::force + d]    = m * b[d];                           // Eq. (12)
-      }
-      lanes_to_vectors<width>(rows, add.constant);
-
-      dealii::Tensor<2, dim, Number> C;
-      if constexpr (is_affine)
-      {
-        if (!stencil.is_at_face)
-          C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
-        else
-          C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
-      }
-      if (is_affine && stencil.is_at_face && scheme.projects_slip)
-        C = without_wall_shear(C, stencil.is_at_slip_wall);
-      for (unsigned int e = 0; e < dim; ++e)
-      {
-        rows[Fields::mass] = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          rows[Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
-          // Eq. (11); xy, xz, yz follow the three diagonal components.
-          rows[Fields::force + d] = -V * batch.load(arrays.stress[d == e ? d : 2 + d + e]);
-        }
-        lanes_to_vectors<width>(rows, add.linear[e]);
-      }
-    }
-
     /** D, Eq. (18), of a stencil that is a list, if the scheme needs it. */
     static dealii::SymmetricTensor<2, dim, Number> second_moment(const LatticeBatch<dim, n> &stencil)
     {
@@ -157,7 +106,7 @@ namespace Talus
                                                        const Add &add)
     {
       const auto slope = [&](const unsigned int d, const unsigned int k) {
-        return blend(is_affine ? moments.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
+        return Vectors::blend(is_affine ? moments.moment[d][k].data()[l] : 0., stencil.derivative[d][k].data()[l]);
       };
       // All is read before anything is stored, so that nothing is read twice.
       Node weight[dim][n], row[n], across[n]; // sums along x; what comes from y
@@ -241,7 +190,7 @@ namespace Talus
         const double phi   = stencil.value[i].data()[l];
         Node         value = phi * add.constant[l];
         for (unsigned int d = 0; d < dim; ++d)
-          value += blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
+          value += Vectors::blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
         if (beyond != 0)
         {
           fields.count_mirrored(value.data(), beyond);

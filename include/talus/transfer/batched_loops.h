@@ -20,13 +20,13 @@ namespace Talus
   {
   public:
     static void particle_to_grid(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                 const unsigned int n_particles, const Kernel<dim> &kernel,
+                                 const unsigned int n_particles, const LatticeForm<dim> &kernel,
                                  const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid)
     {
-      const Lattice<dim>  &lattice   = *kernel.lattice;
+      const Lattice<dim>  &lattice   = kernel.lattice;
       Fields              &fields    = grid.fields;
       const auto           uniform_b = acceleration.value({}, time);
-      const Evaluator      evaluator(function, lattice, *kernel.treatment);
+      const Evaluator      evaluator(function, lattice, kernel.treatment);
       LatticeBatch<dim, n> stencil;
       for_each_batch(0, n_particles, [&](const auto batch) {
         const auto x = load_vector<dim>(batch, arrays.position);
@@ -44,13 +44,13 @@ namespace Talus
     }
 
     static double grid_to_particle(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                   const Kernel<dim> &kernel, const Grid<dim> &grid, const double dt,
+                                   const LatticeForm<dim> &kernel, const Grid<dim> &grid, const double dt,
                                    const unsigned int begin, const unsigned int end)
     {
-      const Lattice<dim>  &lattice      = *kernel.lattice;
+      const Lattice<dim>  &lattice      = kernel.lattice;
       const Fields        &fields       = grid.fields;
       Number               displacement = 0.;
-      const Evaluator      evaluator(function, lattice, *kernel.treatment);
+      const Evaluator      evaluator(function, lattice, kernel.treatment);
       LatticeBatch<dim, n> stencil;
       Polynomials          polynomials(lattice, fields);
       for_each_batch(begin, end, [&](const auto batch) {
@@ -64,11 +64,7 @@ namespace Talus
           evaluator.evaluate(stencil);
           return BatchGather<dim, Scheme, Function>::gather(lattice, stencil, fields);
         }();
-        store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
-        store_matrix<dim>(batch, arrays.grad_v, sum.grad_v);
-        scheme.update(arrays, batch, sum);
-        for (unsigned int d = 0; d < dim; ++d)
-          displacement = max(displacement, abs(sum.velocity[d]) * (dt * lattice.inverse_h[d]));
+        displacement = max(displacement, advance(scheme, arrays, batch, sum, dt, lattice));
       });
       return *std::max_element(displacement.data(), displacement.data() + width);
     }
@@ -108,21 +104,6 @@ namespace Talus
       prefetch(arrays.F, p);
       prefetch(arrays.stress, p);
       prefetch(std::array<double *, 2>{{arrays.mass, arrays.volume}}, p);
-    }
-
-    static VectorNumber body_force(const ParsedVector<dim> &acceleration, const VectorNumber &x, const double time)
-    {
-      VectorNumber b;
-      for (unsigned int l = 0; l < width; ++l)
-      {
-        dealii::Point<dim> x_p;
-        for (unsigned int d = 0; d < dim; ++d)
-          x_p[d] = x[d][l];
-        const auto b_p = acceleration.value(x_p, time);
-        for (unsigned int d = 0; d < dim; ++d)
-          b[d].set(l, b_p[d]);
-      }
-      return b;
     }
   };
 } // namespace Talus

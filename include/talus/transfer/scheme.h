@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/function.h>
+#include <talus/grid/lattice.h>
 #include <talus/particles/batch_access.h>
 #include <talus/particles/working_set.h>
 
@@ -81,4 +83,39 @@ namespace Talus
     // template <class Batch>
     // void update(arrays, batch, gathered) const: the new velocity and what the scheme stores.
   };
+
+  /** The body force per mass on each particle of a batch. */
+  template <int dim>
+  dealii::Tensor<1, dim, Simd<native_width>> body_force(const ParsedVector<dim>                          &acceleration,
+                                                        const dealii::Tensor<1, dim, Simd<native_width>> &x,
+                                                        const double                                      time)
+  {
+    dealii::Tensor<1, dim, Simd<native_width>> b;
+    for (unsigned int l = 0; l < native_width; ++l)
+    {
+      dealii::Point<dim> x_p;
+      for (unsigned int d = 0; d < dim; ++d)
+        x_p[d] = x[d][l];
+      const auto b_p = acceleration.value(x_p, time);
+      for (unsigned int d = 0; d < dim; ++d)
+        b[d].set(l, b_p[d]);
+    }
+    return b;
+  }
+
+  /** What a batch does with what it has gathered; returns the largest displacement along an axis [spacing]. */
+  template <int dim, class Scheme, class Batch>
+  [[gnu::always_inline]] inline typename Batch::Number
+  advance(const Scheme &scheme, const TransferArrays<dim> &arrays, const Batch &batch,
+          const Gathered<dim, typename Batch::Number> &sum, const double dt, const Lattice<dim> &lattice)
+  {
+    const auto x = load_vector<dim>(batch, arrays.position);
+    store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
+    store_matrix<dim>(batch, arrays.grad_v, sum.grad_v);
+    scheme.update(arrays, batch, sum);
+    typename Batch::Number displacement = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      displacement = max(displacement, abs(sum.velocity[d]) * (dt * lattice.inverse_h[d]));
+    return displacement;
+  }
 } // namespace Talus

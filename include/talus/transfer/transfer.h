@@ -23,9 +23,15 @@ namespace Talus
     /** Makes the added fields consistent with the initial velocity gradient. */
     virtual void initialize(const Kernel<dim> &, WorkingSet<dim> &) const {}
 
+    /** What particles may ask of the grid around them. */
+    virtual Reach reach(const Kernel<dim> &kernel) const { return kernel.reach(); }
+
     /** Eqs. (11)-(16): adds m_i, m_i v_i and f_i of this rank's particles to the nodes, copies included. */
     virtual void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                                  const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) const = 0;
+                                  const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) = 0;
+
+    /** Changes the sums at the nodes once their owners have all of them: velocities that are not momentum over mass. Collective. */
+    virtual void complete(Grid<dim> &) {}
 
     /**
      * Eqs. (22)-(26), (31) for the particles begin .. end - 1: new velocity, position, velocity gradient and
@@ -45,7 +51,7 @@ namespace Talus
     /** sum_i phi_ip v_i (x) (x_i - x_p) of a particle where the transfer keeps it: its share of angular momentum. */
     virtual dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &, const unsigned int /*p*/) const { return {}; }
 
-    /** One particle at a time through stencils in memory, instead of batches: slow, and the reference for those. */
+    /** Through stencils as lists, whatever the kernel: slow, and the reference of the compiled loops. */
     bool is_plain = false;
   };
 } // namespace Talus

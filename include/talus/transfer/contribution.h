@@ -1,0 +1,67 @@
+#pragma once
+
+#include <talus/core/transpose.h>
+#include <talus/grid/nodal_fields.h>
+#include <talus/transfer/scheme.h>
+
+namespace Talus
+{
+  /**
+   * What the particles of a batch add to their nodes, Eqs. (11)-(19). It is computed with one particle in each lane and
+   * transposed; then the lanes are the eight numbers of a node (see NodalFields), and a particle adds to a node
+   * phi constant + sum_e (phi offset_e or, in the lanes of the force, phi_,e) linear_e.
+   */
+  template <int dim, class Scheme>
+  class Contribution
+  {
+    using Fields = NodalFields<dim>;
+    using Number = Simd<native_width>;
+
+  public:
+    using Node = Simd<8>; // all numbers of a node
+
+    Node constant[native_width], linear[dim][native_width];
+
+    /** C is the affine field, b the body force per mass. */
+    template <class Batch>
+    [[gnu::always_inline]] void set(const TransferArrays<dim> &arrays, const Batch &batch,
+                                    const dealii::Tensor<2, dim, Number> &C, const dealii::Tensor<1, dim, Number> &b)
+    {
+      const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
+      Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
+      rows[Fields::mass]   = m; // Eq. (13)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        rows[Fields::momentum + d] = m * batch.load(arrays.velocity[d]); // Eq. (15)
+        rows[Fields::force + d]    = m * b[d];                           // Eq. (12)
+      }
+      lanes_to_vectors<native_width>(rows, constant);
+      for (unsigned int e = 0; e < dim; ++e)
+      {
+        rows[Fields::mass] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          rows[Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
+          // Eq. (11); xy, xz, yz follow the three diagonal components.
+          rows[Fields::force + d] = -V * batch.load(arrays.stress[d == e ? d : 2 + d + e]);
+        }
+        lanes_to_vectors<native_width>(rows, linear[e]);
+      }
+    }
+
+    /** The force lanes of a node take the gradient, those of the momentum the offset. */
+    static Node blend(const double moment, const double gradient)
+    {
+      return Scheme::is_affine ? select(is_force(), Node(gradient), Node(moment)) : Node(gradient);
+    }
+
+  private:
+    static typename Node::Mask is_force()
+    {
+      double lane[8];
+      for (unsigned int i = 0; i < 8; ++i)
+        lane[i] = i;
+      return Node::load(lane) >= Node(Fields::force);
+    }
+  };
+} // namespace Talus

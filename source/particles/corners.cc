@@ -1,0 +1,135 @@
+#include <talus/core/exceptions.h>
+#include <talus/particles/corners.h>
+#include <talus/particles/particles.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // How far beyond a face a corner may lie by round-off [h].
+    constexpr double tolerance = 1e-9;
+  } // namespace
+
+  template <int dim>
+  void Particles<dim>::update_open_places()
+  {
+    if (!reach.at_corners)
+      return;
+    is_open = coverage;
+    // One axis after the other: true where an entry from i to i + n - 1 of this line is not active.
+    const auto       &lattice = grid->lattice;
+    const int         size    = lattice.node.size();
+    std::vector<char> is_closed(size);
+    for (int i = 0; i < size; ++i)
+      is_closed[i] = lattice.node[i] != lattice.missing && !grid->is_active[lattice.node[i]];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const std::vector<char> before = is_closed;
+      for (unsigned int k = 1; k < reach.n; ++k)
+        // What wraps around an end of a line comes from the tables' padding, where no stencil begins far out.
+        for (int i = 0; i + static_cast<int>(k) * lattice.stride[d] < size; ++i)
+          is_closed[i] |= before[i + k * lattice.stride[d]];
+    }
+    for (int i = 0; i < size; ++i)
+      is_open[i] = is_open[i] && !is_closed[i];
+  }
+
+  template <int dim>
+  template <class Body>
+  void Particles<dim>::for_each_corner(const unsigned int begin, const unsigned int end, const Body &body) const
+  {
+    const Corners<dim> corners(*this, half_edges);
+    for_each_batch(begin, end, [&](const auto batch) {
+      const auto r = corners.half_edges(batch);
+      const auto x = corners.position(batch);
+      for (unsigned int c = 0; c < corners.n; ++c)
+      {
+        const auto coordinate = corners.coordinates(grid->lattice, x + corners.arm(r, c));
+        for (unsigned int l = 0; l < batch.size(); ++l)
+        {
+          typename Lattice<dim>::Index index;
+          for (unsigned int d = 0; d < dim; ++d)
+            index[d] = static_cast<int>(std::floor(coordinate[d][l] - reach.shift));
+          body(batch.p + l, c, index);
+        }
+      }
+    });
+  }
+
+  template <int dim>
+  void Particles<dim>::look_at_corners(const unsigned int begin, const unsigned int end)
+  {
+    using Number        = Simd<native_width>;
+    const auto &lattice = grid->lattice;
+    const Corners<dim> corners(*this, half_edges);
+    for_each_batch(begin, end, [&](const auto batch) {
+      const auto r = corners.half_edges(batch);
+      const auto x = corners.position(batch);
+      auto       is_outside = Number(1.) < Number(0.);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        // The farthest corner along an axis.
+        Number extent = 0.;
+        for (unsigned int e = 0; e < dim; ++e)
+          extent += abs(r[e][d]);
+        const Number lower = (x[d] - extent - lattice.origin[d]) * lattice.inverse_h[d],
+                     upper = (x[d] + extent - lattice.origin[d]) * lattice.inverse_h[d];
+        is_outside = is_outside | !(lower >= Number(-tolerance) & upper <= Number(lattice.n_cells[d] + tolerance));
+      }
+      if (any(is_outside))
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (is_outside[l])
+            outside = std::min(outside, batch.p + l);
+    });
+    if (outside != none)
+      return;
+    for_each_corner(begin, end, [&](const unsigned int, const unsigned int, const auto &index) {
+      if (!lattice.is_in_table(index) || !coverage[lattice.table_index(index)])
+        needs_synchronise = true;
+      else if (!is_open[lattice.table_index(index)])
+        needs_activation = true;
+    });
+  }
+
+  template <int dim>
+  void Particles<dim>::check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &bodies)
+  {
+    start_relocation();
+    look_at_corners(0, this->size());
+    if (outside != none)
+    {
+      const Body<dim> &its_body = *bodies[this->body[outside]];
+      throw EntryError(its_body.get_section_name(), its_body.shape->position_entry(),
+                       "the domain of the body's point " +
+                         to_text<dim>(Point<dim>(this->vector(this->position, outside))) +
+                         " reaches beyond the grid. Move the body, or enlarge the grid.");
+    }
+    check_corners_are_known();
+  }
+
+  template <int dim>
+  void Particles<dim>::check_corners_are_known()
+  {
+    const auto &lattice = grid->lattice;
+    for_each_corner(0, this->size(), [&](const unsigned int p, const unsigned int, const auto &index) {
+      AssertThrow(lattice.is_in_table(index) && coverage[lattice.table_index(index)],
+                  RunError("The domain of particle " + std::to_string(this->id[p]) + " at " +
+                           to_text<dim>(Point<dim>(this->vector(this->position, p))) +
+                           " reaches farther beyond the cells of its rank than ranks know the grid. Raise 'Layers' in " +
+                           "section 'Kernel', or use fewer ranks; domains that are stretched over several cells also " +
+                           "say that CPDI is at its end."));
+      brings_new_nodes = brings_new_nodes || !is_open[lattice.table_index(index)];
+    });
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template void Particles<dim>::update_open_places();                                                                  \
+  template void Particles<dim>::look_at_corners(const unsigned int, const unsigned int);                               \
+  template void Particles<dim>::check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &);                \
+  template void Particles<dim>::check_corners_are_known();
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus

@@ -1,0 +1,216 @@
+#include <talus/transfer/imls.h>
+
+#include "../setup.h"
+
+#include <cmath>
+#include <random>
+
+using namespace Test;
+using namespace dealii;
+
+namespace
+{
+  double spline(const double z)
+  {
+    const double r = std::abs(z);
+    return r < 1 ? 2. / 3. - r * r + r * r * r / 2 : (r < 2 ? std::pow(2 - r, 3) / 6 : 0.);
+  }
+
+  /** The value at a node by Gram-Schmidt on the values of the functions at the data, as one would on paper. */
+  template <unsigned int order>
+  double fit(const std::vector<double> &z, const std::vector<double> &v)
+  {
+    constexpr unsigned int           n = order + 1;
+    std::vector<std::vector<double>> q(n, std::vector<double>(z.size() + 1)); // at the data, and at the node
+    std::vector<double>              D(n);
+    const auto                       product = [&](const auto &a, const auto &b) {
+      double sum = 0;
+      for (unsigned int k = 0; k < z.size(); ++k)
+        sum += spline(z[k]) * a[k] * b[k];
+      return sum;
+    };
+    double result = 0;
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      for (unsigned int k = 0; k < z.size(); ++k)
+        q[j][k] = std::pow(z[k], j);
+      q[j].back()         = j == 0 ? 1 : 0;
+      const double before = product(q[j], q[j]);
+      for (unsigned int k = 0; k < j; ++k)
+        if (D[k] > 0)
+        {
+          const double L = product(q[j], q[k]) / D[k];
+          for (unsigned int i = 0; i < q[j].size(); ++i)
+            q[j][i] -= L * q[k][i];
+        }
+      D[j] = product(q[j], q[j]);
+      if (D[j] <= 1e-8 * before)
+        D[j] = 0;
+      else
+        result += q[j].back() * product(q[j], v) / D[j];
+    }
+    return result;
+  }
+
+  /** The same by moments. */
+  template <unsigned int order>
+  double moments(const std::vector<double> &z, const std::vector<double> &v)
+  {
+    using Basis = ImlsBasis<1, order>;
+    double M[Basis::n_moments] = {}, R[Basis::n] = {};
+    for (unsigned int k = 0; k < z.size(); ++k)
+    {
+      for (unsigned int m = 0; m < Basis::n_moments; ++m)
+        M[m] += spline(z[k]) * std::pow(z[k], Basis::monomials[m][0]);
+      for (unsigned int j = 0; j < Basis::n; ++j)
+        R[j] += spline(z[k]) * std::pow(z[k], j) * v[k];
+    }
+    const auto c      = Basis::value_weights(M);
+    double     result = 0;
+    for (unsigned int j = 0; j < Basis::n; ++j)
+      result += c[j] * R[j];
+    return result;
+  }
+
+  /** RMS error at the nodes for sin x on [1, 4] in n cells of two points. */
+  template <unsigned int order>
+  double error_of_sine(const unsigned int n)
+  {
+    const double h   = 3. / n;
+    double       sum = 0;
+    for (unsigned int i = 0; i <= n; ++i)
+    {
+      std::vector<double> z, v;
+      for (unsigned int q = 0; q < 2 * n; ++q)
+      {
+        const double x = 1 + (q + 0.5) * h / 2;
+        z.push_back((x - (1 + i * h)) / h);
+        v.push_back(std::sin(x));
+      }
+      sum += std::pow(moments<order>(z, v) - std::sin(1 + i * h), 2) / (n + 1);
+    }
+    return std::sqrt(sum);
+  }
+} // namespace
+
+/** One node: Gram-Schmidt as on paper, data that determine less than the basis, and orders for sin x. */
+void imls_at_a_node()
+{
+  std::mt19937                           random(5);
+  std::uniform_real_distribution<double> uniform(-1.9, 1.9);
+  double                                 linear = 0, quadratic = 0;
+  for (unsigned int repetition = 0; repetition < 200; ++repetition)
+  {
+    std::vector<double> z, v;
+    for (unsigned int k = 0; k < 1 + repetition % 8; ++k)
+    {
+      z.push_back(uniform(random));
+      v.push_back(uniform(random));
+    }
+    raise(linear, moments<1>(z, v) - fit<1>(z, v));
+    raise(quadratic, (moments<2>(z, v) - fit<2>(z, v)) / (1 + std::abs(fit<2>(z, v))));
+  }
+  check("linear basis by moments", linear, 1e-8);
+  check("quadratic basis by moments", quadratic, 1e-7);
+
+  const std::vector<double> z = {-0.7, 0.4}, v = {2., 5.};
+  check("two points, linear: on their line", moments<1>(z, v) - (2. + 3. * 0.7 / 1.1), 1e-12);
+  check("two points, quadratic: the same", moments<2>(z, v) - moments<1>(z, v), 1e-12);
+  check("one point: its value", moments<2>({0.3}, {4.}) - 4., 1e-14);
+  check("no point: zero", moments<1>({}, {}), 1e-300);
+
+  check_range("order of the linear basis", std::log2(error_of_sine<1>(20) / error_of_sine<1>(160)) / 3, 1.9, 2.1);
+  check_range("order of the quadratic basis", std::log2(error_of_sine<2>(20) / error_of_sine<2>(160)) / 3, 3.3, 3.7);
+}
+
+/** On a lattice, with data anywhere: polynomials of the basis are exact at all nodes that have enough data, at faces too. */
+template <int dim>
+void imls_on_a_lattice()
+{
+  Setup<dim>                             setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
+  const auto                            &lattice = setup.grid.lattice;
+  std::mt19937                           random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Imls<dim, 1>                           linear;
+  Imls<dim, 2>                           quadratic;
+  linear.clear(setup.grid);
+  quadratic.clear(setup.grid);
+  const auto field = [&](const double *x, const bool is_quadratic) {
+    Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      v[d] = 1. + d;
+      for (unsigned int e = 0; e < dim; ++e)
+        v[d] += (0.3 + d - 0.7 * e) * x[e] + (is_quadratic ? 0.2 * (1. + d) * x[e] * x[(e + d) % dim] : 0.);
+    }
+    return v;
+  };
+  // All ranks draw the same data, and each adds those in its cells.
+  for (unsigned int q = 0; q < 2000; ++q)
+  {
+    double x[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = uniform(random) * lattice.n_cells[d];
+    typename Lattice<dim>::Index index;
+    for (unsigned int d = 0; d < dim; ++d)
+      index[d] = static_cast<int>(x[d]);
+    const bool is_mine = lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
+    if (!is_mine)
+      continue;
+    linear.add(lattice, x, field(x, false));
+    quadratic.add(lattice, x, field(x, true));
+  }
+  linear.collect();
+  quadratic.collect();
+  double of_linear = 0, of_quadratic = 0;
+  for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
+  {
+    double x[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = setup.grid.node_index[i][d];
+    raise(of_linear, (linear.value(i) - field(x, false)).norm());
+    raise(of_quadratic, (quadratic.value(i) - field(x, true)).norm());
+  }
+  check("linear field", of_linear, 1e-12);
+  check("quadratic field", of_quadratic, 1e-10);
+}
+
+/** An affine velocity is exact at all nodes that have mass; the momentum of any other field is nearly kept. */
+template <int dim>
+void cpls_affine()
+{
+  const std::string velocity = dim == 2 ? "0.3 + 2*x - y; 1 - 0.5*x + 3*y" :
+                                          "0.3 + 2*x - y + z; 1 - 0.5*x + 3*y; 0.2*x - y + 0.4*z";
+  const std::string gradient = dim == 2 ? "2, -1, -0.5, 3" : "2, -1, 1, -0.5, 3, 0, 0.2, -1, 0.4";
+  Setup<dim> setup(skewed_grid<dim>({{8, 8, 6}}) + section("Kernel", set("Type", "CPDI")) + transfer_text("CPLS") +
+                   body_text(set("Shape", "ball") + set("Centre", coordinates<dim>({{0.1, 1.02, 0.57}})) +
+                             set("Radius", "0.2") + set("Velocity", velocity) + set("Velocity gradient", gradient)));
+  setup.scatter();
+  setup.grid.fields.add_copies_to_owners();
+  setup.transfer->complete(setup.grid);
+  double       error = 0;
+  unsigned int n     = 0;
+  for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
+  {
+    const double *node = setup.grid.fields[i];
+    if (!(node[0] > setup.grid.mass_floor))
+      continue;
+    ++n;
+    const auto x = setup.grid.node_position(i);
+    const double A[3][3] = {{2, -1, dim == 3 ? 1. : 0.}, {-0.5, 3, 0}, {0.2, -1, 0.4}}, b[3] = {0.3, 1, 0};
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      double v = b[d];
+      for (unsigned int e = 0; e < dim; ++e)
+        v += A[d][e] * x[e];
+      raise(error, node[NodalFields<dim>::momentum + d] / node[0] - v);
+    }
+  }
+  check("nodes with mass", sum(n) > 20 ? 0. : 2., 1.);
+  check("affine velocity", error, 1e-12);
+}
+
+template void imls_on_a_lattice<2>();
+template void imls_on_a_lattice<3>();
+template void cpls_affine<2>();
+template void cpls_affine<3>();
