@@ -86,7 +86,7 @@ namespace Test
   class Setup
   {
   public:
-    explicit Setup(const std::string &text) :
+    explicit Setup(const std::string &text, const bool half_edges = false) :
       parameters(Parameters::from_text(text)), grid("/Grid", MPI_COMM_WORLD),
       kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "")),
       transfer(parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", ""))
@@ -105,6 +105,8 @@ namespace Test
         tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
       kernel->add_fields(particles);
       transfer->add_fields(particles);
+      if (half_edges)
+        particles.add_half_edges();
       parameters.parse();
       accelerate(dim == 2 ? "0; 0" : "0; 0; 0");
       create();

@@ -91,6 +91,12 @@ namespace Talus
       value(set.stress, c) = stress[c];
     value(set.volume, 0) = volume;
     value(set.mass, 0)   = volume * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
+    if (const auto field = set.find_field(set.half_edges_name))
+    {
+      const auto edges = shape->half_edges(x, volume);
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        value(*field, c) = edges[c / dim][c % dim];
+    }
   }
 
   template <int dim>

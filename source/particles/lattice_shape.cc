@@ -78,6 +78,15 @@ namespace Talus
   }
 
   template <int dim>
+  std::array<Tensor<1, dim>, dim> LatticeShape<dim>::half_edges(const Point<dim> &, const double) const
+  {
+    std::array<Tensor<1, dim>, dim> edges;
+    for (unsigned int d = 0; d < dim; ++d)
+      edges[d][d] = 0.5 * spacing[d];
+    return edges;
+  }
+
+  template <int dim>
   void LatticeShape<dim>::visit(const BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const
   {
     const auto           corners = box.get_boundary_points();

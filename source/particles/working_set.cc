@@ -52,16 +52,24 @@ namespace Talus
   unsigned int WorkingSet<dim>::add_field(const std::string &name, const unsigned int n_components,
                                           const double initial)
   {
-    for (unsigned int f = 0; f < fields.size(); ++f)
-      if (fields[f].name == name)
-      {
-        Assert(fields[f].n_components == n_components, ExcDimensionMismatch(fields[f].n_components, n_components));
-        return f;
-      }
+    if (const auto f = find_field(name))
+    {
+      Assert(fields[*f].n_components == n_components, ExcDimensionMismatch(fields[*f].n_components, n_components));
+      return *f;
+    }
     Assert(size() == 0, ExcMessage("Fields must be added before particles exist."));
     fields.push_back({name, n_columns(), n_components, std::vector<double>(n_components, initial)});
     columns.resize(columns.size() + n_components);
     return fields.size() - 1;
+  }
+
+  template <int dim>
+  std::optional<unsigned int> WorkingSet<dim>::find_field(const std::string &name) const
+  {
+    for (unsigned int f = 0; f < fields.size(); ++f)
+      if (fields[f].name == name)
+        return f;
+    return {};
   }
 
   template <int dim>

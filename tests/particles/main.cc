@@ -16,6 +16,9 @@ DECLARE(lost)
 DECLARE(drift)
 DECLARE(outside)
 DECLARE(surfaces)
+DECLARE(half_edges_of_shapes)
+DECLARE(ring)
+DECLARE(ring_errors)
 
 int main(int argc, char **argv)
 {
@@ -45,5 +48,11 @@ int main(int argc, char **argv)
                     {"outside 2D", outside<2>},
                     {"outside 3D", outside<3>},
                     {"surfaces 2D", surfaces<2>},
-                    {"surfaces 3D", surfaces<3>}});
+                    {"surfaces 3D", surfaces<3>},
+                    {"half edges 2D", half_edges_of_shapes<2>},
+                    {"half edges 3D", half_edges_of_shapes<3>},
+                    {"ring 2D", ring<2>},
+                    {"ring 3D", ring<3>},
+                    {"ring errors 2D", ring_errors<2>},
+                    {"ring errors 3D", ring_errors<3>}});
 }

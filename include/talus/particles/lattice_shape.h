@@ -20,6 +20,9 @@ namespace Talus
     void         visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
     unsigned int n_indices() const override;
 
+    /** Those of the lattice's boxes. */
+    std::array<dealii::Tensor<1, dim>, dim> half_edges(const dealii::Point<dim> &x, const double volume) const override;
+
     virtual bool contains(const dealii::Point<dim> &x) const = 0;
 
     void parse_parameters(dealii::ParameterHandler &prm) override;

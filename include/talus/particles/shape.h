@@ -5,6 +5,8 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
 
 namespace Talus
@@ -31,6 +33,19 @@ namespace Talus
 
     /** Visits all points in `box`; points close to it may be visited too. */
     virtual void visit(const dealii::BoundingBox<dim> &box, const Visitor &visitor) const = 0;
+
+    /**
+     * The edges of the parallelogram or parallelepiped that a point stands for, from its middle to the middle of a
+     * face each: a right-handed basis of volume `volume` / 2^dim, for kernels that follow a particle's domain. Unless
+     * a shape knows better, those of a square or a cube.
+     */
+    virtual std::array<dealii::Tensor<1, dim>, dim> half_edges(const Point & /*x*/, const double volume) const
+    {
+      std::array<dealii::Tensor<1, dim>, dim> edges;
+      for (unsigned int d = 0; d < dim; ++d)
+        edges[d][d] = 0.5 * std::pow(volume, 1. / dim);
+      return edges;
+    }
 
     /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
     virtual std::string position_entry() const = 0;

@@ -5,6 +5,7 @@
 #include <deal.II/particles/particle.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,17 @@ namespace Talus
 
     /** Adds a field; the same name gives the same field. Before the first particle exists. */
     unsigned int add_field(const std::string &name, const unsigned int n_components, const double initial = 0.);
+
+    /** The field of this name, if it has been added. */
+    std::optional<unsigned int> find_field(const std::string &name) const;
+
+    /**
+     * Adds the half edges of each particle's initial domain, half_edge e in the components dim e .. dim e + dim - 1;
+     * Shape::half_edges() gives them to new particles.
+     */
+    unsigned int add_half_edges() { return add_field(half_edges_name, dim * dim); }
+
+    static constexpr const char *half_edges_name = "half edges";
 
     unsigned int size() const { return id.size(); }
     void         resize(const unsigned int n_particles);
