@@ -37,28 +37,6 @@ namespace Talus
   }
 
   template <int dim>
-  template <class Body>
-  void Particles<dim>::for_each_corner(const unsigned int begin, const unsigned int end, const Body &body) const
-  {
-    const Corners<dim> corners(*this, half_edges);
-    for_each_batch(begin, end, [&](const auto batch) {
-      const auto r = corners.half_edges(batch);
-      const auto x = corners.position(batch);
-      for (unsigned int c = 0; c < corners.n; ++c)
-      {
-        const auto coordinate = corners.coordinates(grid->lattice, x + corners.arm(r, c));
-        for (unsigned int l = 0; l < batch.size(); ++l)
-        {
-          typename Lattice<dim>::Index index;
-          for (unsigned int d = 0; d < dim; ++d)
-            index[d] = static_cast<int>(std::floor(coordinate[d][l] - reach.shift));
-          body(batch.p + l, c, index);
-        }
-      }
-    });
-  }
-
-  template <int dim>
   void Particles<dim>::look_at_corners(const unsigned int begin, const unsigned int end)
   {
     using Number        = Simd<native_width>;
@@ -85,7 +63,7 @@ namespace Talus
     });
     if (outside != none)
       return;
-    for_each_corner(begin, end, [&](const unsigned int, const unsigned int, const auto &index) {
+    corners.for_each(lattice, reach.shift, begin, end, [&](const unsigned int, const auto &index) {
       if (!lattice.is_in_table(index) || !coverage[lattice.table_index(index)])
         needs_synchronise = true;
       else if (!is_open[lattice.table_index(index)])
@@ -113,7 +91,7 @@ namespace Talus
   void Particles<dim>::check_corners_are_known()
   {
     const auto &lattice = grid->lattice;
-    for_each_corner(0, this->size(), [&](const unsigned int p, const unsigned int, const auto &index) {
+    Corners<dim>(*this, half_edges).for_each(lattice, reach.shift, 0, this->size(), [&](const unsigned int p, const auto &index) {
       AssertThrow(lattice.is_in_table(index) && coverage[lattice.table_index(index)],
                   RunError("The domain of particle " + std::to_string(this->id[p]) + " at " +
                            to_text<dim>(Point<dim>(this->vector(this->position, p))) +

@@ -277,9 +277,9 @@ namespace Talus
       begins[lattice.table_index(first)] = 1;
     }
     if (reach.at_corners)
-      for_each_corner(0, this->size(), [&](const unsigned int, const unsigned int, const auto &index) {
-        begins[lattice.table_index(index)] = 1;
-      });
+      Corners<dim>(*this, half_edges)
+        .for_each(lattice, reach.shift, 0, this->size(),
+                  [&](const unsigned int, const auto &index) { begins[lattice.table_index(index)] = 1; });
     return begins;
   }
 

@@ -107,10 +107,11 @@ void imls_at_a_node()
       z.push_back(uniform(random));
       v.push_back(uniform(random));
     }
-    raise(linear, moments<1>(z, v) - fit<1>(z, v));
+    raise(linear, (moments<1>(z, v) - fit<1>(z, v)) / (1 + std::abs(fit<1>(z, v))));
     raise(quadratic, (moments<2>(z, v) - fit<2>(z, v)) / (1 + std::abs(fit<2>(z, v))));
   }
-  check("linear basis by moments", linear, 1e-8);
+  // Where functions are about to be left out, round-off of 1e-16 is seen 1e8 times.
+  check("linear basis by moments", linear, 1e-7);
   check("quadratic basis by moments", quadratic, 1e-7);
 
   const std::vector<double> z = {-0.7, 0.4}, v = {2., 5.};

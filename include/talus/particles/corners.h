@@ -21,7 +21,7 @@ namespace Talus
     static constexpr unsigned int n = 1u << dim;
 
     /** The field of r0: its component dim e + d is the d-th coordinate of half edge e [length]. */
-    static unsigned int add_field(WorkingSet<dim> &particles) { return particles.add_field("half edges", dim * dim); }
+    static unsigned int add_field(WorkingSet<dim> &particles) { return particles.add_half_edges(); }
 
     Corners(const WorkingSet<dim> &particles, const unsigned int field) :
       x(particles.template components<dim>(particles.position)),
@@ -63,6 +63,27 @@ namespace Talus
         result[d] = min(max((point[d] - lattice.origin[d]) * lattice.inverse_h[d], Number(0.)),
                         Number(1. * lattice.n_cells[d]));
       return result;
+    }
+
+    /** Calls `body(p, index)` for all corners of the particles begin .. end - 1: floor(lattice coordinates - shift). */
+    template <class Body>
+    void for_each(const Lattice<dim> &lattice, const double shift, const unsigned int begin, const unsigned int end,
+                  const Body &body) const
+    {
+      for_each_batch(begin, end, [&](const auto batch) {
+        const auto r = half_edges(batch);
+        for (unsigned int c = 0; c < n; ++c)
+        {
+          const auto coordinate = coordinates(lattice, position(batch) + arm(r, c));
+          for (unsigned int l = 0; l < batch.size(); ++l)
+          {
+            typename Lattice<dim>::Index index;
+            for (unsigned int d = 0; d < dim; ++d)
+              index[d] = static_cast<int>(std::floor(coordinate[d][l] - shift));
+            body(batch.p + l, index);
+          }
+        }
+      });
     }
 
   private:

@@ -95,10 +95,6 @@ namespace Talus
     /** Throws RunError if a corner lies where its owner, this rank, does not know the nodes. */
     void check_corners_are_known();
 
-    /** Calls `body(p, c, index)` for the first nodes within reach of all corners of the particles begin .. end - 1. */
-    template <class Body>
-    void for_each_corner(const unsigned int begin, const unsigned int end, const Body &body) const;
-
     /** Lattice index of the first node of a particle's stencil. */
     typename Lattice<dim>::Index first_node(const unsigned int p) const;
 
