@@ -14,14 +14,14 @@ namespace
   template <int dim>
   struct Kernel
   {
-    std::string                                                                             name;
-    std::function<void(const unsigned int cell, const Vector<dim> &x, NodeList<dim> &list)> evaluate;
+    std::string                                                                                  name;
+    std::function<void(const unsigned int cell, const Coordinates<dim> &x, NodeList<dim> &list)> evaluate;
   };
 
   template <class Weight, int dim>
   Kernel<dim> umls_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
-    return {name, [&mesh, options](const unsigned int c, const Vector<dim> &x, NodeList<dim> &list) {
+    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
               umls<Weight>(mesh, c, x.data(), options, list);
             }};
   }
@@ -29,7 +29,7 @@ namespace
   template <class Weight, int dim>
   Kernel<dim> c1_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
-    return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Vector<dim> &x,
+    return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
                                                                   NodeList<dim> &list) {
               c1_umls<Weight>(mesh, feet[c], c, x.data(), options, list);
             }};
@@ -38,8 +38,9 @@ namespace
   template <int dim>
   Kernel<dim> p1_kernel(const Mesh<dim> &mesh)
   {
-    return {"P1",
-            [&mesh](const unsigned int c, const Vector<dim> &x, NodeList<dim> &list) { p1(mesh, c, x.data(), list); }};
+    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
+              p1(mesh, c, x.data(), list);
+            }};
   }
 
   constexpr auto global = UmlsOptions::Support::global, local = UmlsOptions::Support::local;
@@ -65,8 +66,8 @@ namespace
   template <int dim>
   struct Values
   {
-    Values(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int cell, const Vector<dim> &x) :
-      weight(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Vector<dim>{})
+    Values(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int cell, const Coordinates<dim> &x) :
+      weight(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
     {
       static NodeList<dim> list;
       kernel.evaluate(cell, x, list);
@@ -80,9 +81,9 @@ namespace
         }
       }
     }
-    std::vector<double>      weight;
-    std::vector<Vector<dim>> gradient;
-    double                   offset_error = 0;
+    std::vector<double>           weight;
+    std::vector<Coordinates<dim>> gradient;
+    double                        offset_error = 0;
   };
 
   template <int dim>
@@ -90,11 +91,11 @@ namespace
   {
     double       unity = 0, linear = 0, sum_of_g = 0, identity = 0, offsets = 0;
     const double h = mesh.longest_edge;
-    for_points(mesh, 3, [&](const unsigned int c, const Vector<dim> &x) {
-      const Values<dim>            at(mesh, kernel, c, x);
-      double                       sum = -1;
-      Vector<dim>                  first{}, slope{};
-      std::array<Vector<dim>, dim> second{};
+    for_points(mesh, 3, [&](const unsigned int c, const Coordinates<dim> &x) {
+      const Values<dim>                 at(mesh, kernel, c, x);
+      double                            sum = -1;
+      Coordinates<dim>                  first{}, slope{};
+      std::array<Coordinates<dim>, dim> second{};
       for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
       {
         sum += at.weight[v];
@@ -125,10 +126,10 @@ namespace
 
   /** The greatest jumps of phi and g h where two cells meet. */
   template <int dim>
-  std::pair<double, double> jumps(const Mesh<dim> &mesh, const Kernel<dim> &kernel)
+  std::pair<double, double> jumps(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int n_points = 3)
   {
     double weight = 0, gradient = 0;
-    for_face_points(mesh, 3, [&](const unsigned int c, const unsigned int beyond, const Vector<dim> &x) {
+    for_face_points(mesh, n_points, [&](const unsigned int c, const unsigned int beyond, const Coordinates<dim> &x) {
       const Values<dim> one(mesh, kernel, c, x), other(mesh, kernel, beyond, x);
       for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
       {
@@ -184,6 +185,16 @@ void continuity()
   }
 }
 
+/** Without gamma a node that leaves the ring takes its weight with it: what gamma is for. */
+template <int dim>
+void ablation()
+{
+  const auto mesh = mesh_of(gmsh<dim>());
+  const auto jump = jumps(mesh, umls_kernel<CubicWeight>("", mesh, {global, false}), 30);
+  check_range("without gamma: jump of phi", jump.first, .05, 1.);
+  check_range("without gamma: jump of g h", jump.second, .1, 10.);
+}
+
 template <int dim>
 void true_gradient()
 {
@@ -214,7 +225,7 @@ void true_gradient()
 /** On a line of cells of length 1, the functions of the paper in closed form. */
 void line()
 {
-  Mesh<1>      mesh   = kuhn<1>(5, [](Vector<1> x) { return Vector<1>{{5 * x[0]}}; });
+  Mesh<1>      mesh   = kuhn<1>(5, [](Coordinates<1> x) { return Coordinates<1>{{5 * x[0]}}; });
   const auto   kernel = umls_kernel<CubicWeight>("cubic", mesh, {local, true});
   const double phi[] = {.058013, .634568, .306827, .000593}, g[] = {-.223399, -.549439, .769076, .003763};
   for (const double xi : {0., .25, .6, 1.})
@@ -254,6 +265,8 @@ template void reproduction<3>();
 template void continuity<1>();
 template void continuity<2>();
 template void continuity<3>();
+template void ablation<2>();
+template void ablation<3>();
 template void true_gradient<1>();
 template void true_gradient<2>();
 template void true_gradient<3>();

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <talus/grid/mesh.h>
+#include <talus/grid/mesh_check.h>
+#include <talus/grid/mesh_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,13 @@ namespace Test
   using Talus::Mesh;
 
   template <int dim>
-  using Vector = typename Mesh<dim>::Vector;
+  using Coordinates = typename Mesh<dim>::Vector;
 
   /** A unit box, n cells along each axis, each cut into dim! simplices around its diagonal (Kuhn). */
   template <int dim>
-  Mesh<dim> kuhn(const unsigned int n, const std::function<Vector<dim>(Vector<dim>)> &map = {})
+  Mesh<dim> kuhn(const unsigned int n, const std::function<Coordinates<dim>(Coordinates<dim>)> &map = {})
   {
-    std::vector<Vector<dim>>                 positions;
+    std::vector<Coordinates<dim>>            positions;
     std::vector<typename Mesh<dim>::Corners> cells;
     unsigned int                             n_nodes = 1, stride[dim];
     for (unsigned int d = 0; d < dim; ++d)
@@ -32,8 +33,8 @@ namespace Test
     }
     for (unsigned int v = 0; v < n_nodes; ++v)
     {
-      Vector<dim> x;
-      bool        is_corner = true;
+      Coordinates<dim> x;
+      bool             is_corner = true;
       for (unsigned int d = 0; d < dim; ++d)
       {
         x[d]      = static_cast<double>(v / stride[d] % (n + 1)) / n;
@@ -65,7 +66,7 @@ namespace Test
   {
     std::mt19937                           random(5);
     std::uniform_real_distribution<double> uniform(-share / n, share / n);
-    return kuhn<dim>(n, [&](Vector<dim> x) {
+    return kuhn<dim>(n, [&](Coordinates<dim> x) {
       const auto is_inside = [](const double c) { return c > 0 && c < 1; };
       if (std::all_of(x.begin(), x.end(), is_inside))
         for (double &c : x)
@@ -78,24 +79,50 @@ namespace Test
   template <int dim>
   Mesh<dim> graded(const unsigned int n)
   {
-    return kuhn<dim>(n, [](Vector<dim> x) {
+    return kuhn<dim>(n, [](Coordinates<dim> x) {
       x[0] = (std::pow(4., x[0]) - 1) / 3;
       return x;
     });
   }
 
+  /** A file beside the tests. */
+  inline std::string data(const std::string &name)
+  {
+    const std::string here = __FILE__;
+    return here.substr(0, here.rfind('/')) + "/data/" + name;
+  }
+
+  template <int dim>
+  Mesh<dim> mesh_of(const Talus::MeshInput<dim> &input)
+  {
+    Mesh<dim> mesh;
+    mesh.reinit(input.positions, input.cells);
+    return mesh;
+  }
+
+  /** Delaunay meshes by gmsh. */
+  template <int dim>
+  Talus::MeshInput<dim> gmsh()
+  {
+    return Talus::read_msh<dim>(data(dim == 2 ? "plate.msh" : "block.msh"));
+  }
+
   template <int dim>
   std::vector<std::pair<std::string, Mesh<dim>>> meshes()
   {
-    const unsigned int n = dim == 1 ? 12 : dim == 2 ? 6 : 3;
-    return {{"structured", kuhn<dim>(n)}, {"jittered", jittered<dim>(n, .2)}, {"graded", graded<dim>(n)}};
+    const unsigned int                             n      = dim == 1 ? 12 : dim == 2 ? 6 : 3;
+    std::vector<std::pair<std::string, Mesh<dim>>> meshes = {
+      {"structured", kuhn<dim>(n)}, {"jittered", jittered<dim>(n, .2)}, {"graded", graded<dim>(n)}};
+    if constexpr (dim > 1)
+      meshes.emplace_back("gmsh", mesh_of(gmsh<dim>()));
+    return meshes;
   }
 
   /** The point with barycentric coordinates B. */
   template <int dim>
-  Vector<dim> point(const Mesh<dim> &mesh, const unsigned int cell, const typename Mesh<dim>::Barycentric &B)
+  Coordinates<dim> point(const Mesh<dim> &mesh, const unsigned int cell, const typename Mesh<dim>::Barycentric &B)
   {
-    Vector<dim> x{};
+    Coordinates<dim> x{};
     for (unsigned int k = 0; k <= dim; ++k)
       for (unsigned int d = 0; d < dim; ++d)
         x[d] += B[k] * mesh.position[mesh.nodes[cell][k]][d];

@@ -13,10 +13,12 @@ namespace
   template <int dim>
   struct Shares
   {
-    Shares(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const Vector<dim> &x) :
-      nodes(mesh.nodes[cell]), eta(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Vector<dim>{})
+    Shares(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell,
+           const Coordinates<dim> &x) :
+      nodes(mesh.nodes[cell]),
+      eta(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
     {
-      const auto shares = c1_shares<dim>(feet, mesh.barycentric(cell, x.data()));
+      const auto shares = c1_shares(feet, mesh.barycentric(cell, x.data()));
       const auto grad_B = mesh.gradients(cell);
       for (unsigned int i = 0; i <= dim; ++i)
       {
@@ -26,9 +28,9 @@ namespace
             gradient[nodes[i]][d] += shares.slope[i][c] * grad_B[c][d];
       }
     }
-    typename Mesh<dim>::Corners nodes;
-    std::vector<double>         eta;
-    std::vector<Vector<dim>>    gradient;
+    typename Mesh<dim>::Corners   nodes;
+    std::vector<double>           eta;
+    std::vector<Coordinates<dim>> gradient;
   };
 
   double ramp(const double t) { return t * t * (3 - 2 * t); }
@@ -44,7 +46,7 @@ void partition()
     for_points(mesh, 5, [&, &mesh = mesh](const unsigned int c, const auto &x) {
       const Shares<dim> at(mesh, feet[c], c, x);
       double            sum = -1;
-      Vector<dim>       total{};
+      Coordinates<dim>  total{};
       for (const unsigned int v : at.nodes)
       {
         sum += at.eta[v];

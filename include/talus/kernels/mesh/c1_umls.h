@@ -34,7 +34,7 @@ namespace Talus
       C1Point(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
               const UmlsOptions &options)
       {
-        const auto                  shares = c1_shares<dim>(feet, mesh.barycentric(cell, x));
+        const auto                  shares = c1_shares(feet, mesh.barycentric(cell, x));
         const auto                  grad_B = mesh.gradients(cell);
         std::array<double, dim + 1> eta, grad_eta[dim];
         for (unsigned int u = 0; u <= dim; ++u)
