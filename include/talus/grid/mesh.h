@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * The stencil nodes of each cell: its vertices (ring 0) first, then all vertices joined to them by an edge (ring 1),
+   * ascending. Bit u of `touches` is A_uv: the node is the cell's vertex u, or joined to it by an edge.
+   */
+  struct Rings
+  {
+    std::vector<std::size_t>   begin; // of a cell's list; one more than there are cells
+    std::vector<unsigned int>  node;
+    std::vector<unsigned char> touches;
+
+    unsigned int size(const unsigned int cell) const { return begin[cell + 1] - begin[cell]; }
+  };
+
+  /**
+   * A simplex mesh (segments, triangles, tetrahedra) as plain tables by local cell and local node, all that the hot
+   * loops see of it. Barycentric coordinates of x in a cell with vertices x_0, ..., x_dim are
+   * @f[ B_k = \sum_e (E^{-1})_{k-1,e} (x - x_0)_e , \quad B_0 = 1 - \sum_{k>0} B_k , \quad
+   *     E = [x_1 - x_0, ..., x_{dim} - x_0] . @f]
+   *
+   * Throws nothing: what is wrong with a mesh is found by check_mesh(), before. Test: tests/mesh/tables.cc.
+   */
+  template <int dim>
+  struct Mesh
+  {
+    static constexpr unsigned int missing   = static_cast<unsigned int>(-1);
+    static constexpr unsigned int n_corners = dim + 1;
+
+    using Vector      = std::array<double, dim>;
+    using Corners     = std::array<unsigned int, n_corners>; // something for each vertex of a cell
+    using Barycentric = std::array<double, n_corners>;
+
+    /**
+     * Sets all tables. Vertices may come in any orientation. Owners become 0 and the cells' numbers at their owner
+     * those given here: a mesh in parts sets them itself, and the sizes of nodes whose cells are not all here.
+     */
+    void reinit(std::vector<Vector> positions, std::vector<Corners> cells);
+
+    unsigned int n_nodes() const { return position.size(); }
+    unsigned int n_cells() const { return nodes.size(); }
+
+    std::vector<Vector> position; // [length]
+    std::vector<double> size;     // of a node: the longest edge at it [length]
+
+    std::vector<Corners>      nodes;
+    std::vector<Corners>      neighbours; // the cell beyond the face opposite to a vertex, or `missing`
+    std::vector<unsigned int> owner;      // rank
+    std::vector<unsigned int> number;     // of the cell at its owner
+    Rings                     rings;
+
+    double longest_edge = 0; // [length]
+
+    /** Barycentric coordinates of x; those outside a cell are negative somewhere. */
+    Barycentric barycentric(const unsigned int cell, const double *x) const
+    {
+      const Vector &origin = position[nodes[cell][0]];
+      Barycentric   B;
+      B[0] = 1;
+      for (unsigned int k = 0; k < dim; ++k)
+      {
+        B[k + 1] = 0;
+        for (unsigned int e = 0; e < dim; ++e)
+          B[k + 1] += inverse_edges[cell][k][e] * (x[e] - origin[e]);
+        B[0] -= B[k + 1];
+      }
+      return B;
+    }
+
+    /** Their gradients [1/length]. */
+    std::array<Vector, n_corners> gradients(const unsigned int cell) const
+    {
+      std::array<Vector, n_corners> gradient;
+      for (unsigned int e = 0; e < dim; ++e)
+      {
+        gradient[0][e] = 0;
+        for (unsigned int k = 0; k < dim; ++k)
+        {
+          gradient[k + 1][e] = inverse_edges[cell][k][e];
+          gradient[0][e] -= gradient[k + 1][e];
+        }
+      }
+      return gradient;
+    }
+
+  private:
+    void find_inverse_edges();
+    void find_neighbours();
+    void find_rings();
+    void find_sizes();
+
+    std::vector<std::array<Vector, dim>> inverse_edges; // E^-1 [1/length]
+  };
+} // namespace Talus

@@ -1,0 +1,44 @@
+#include "../check.h"
+
+#define DECLARE(name)                                                                                                  \
+  template <int dim>                                                                                                   \
+  void name();
+DECLARE(tables)
+DECLARE(partition)
+DECLARE(reproduction)
+DECLARE(continuity)
+DECLARE(ablation)
+DECLARE(true_gradient)
+DECLARE(mesh_file)
+DECLARE(location)
+DECLARE(many_particles)
+void wrong_meshes();
+void line();
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"tables 1D", tables<1>},
+                    {"tables 2D", tables<2>},
+                    {"tables 3D", tables<3>},
+                    {"partition 1D", partition<1>},
+                    {"partition 2D", partition<2>},
+                    {"partition 3D", partition<3>},
+                    {"reproduction 2D", reproduction<2>},
+                    {"reproduction 3D", reproduction<3>},
+                    {"continuity 1D", continuity<1>},
+                    {"continuity 2D", continuity<2>},
+                    {"continuity 3D", continuity<3>},
+                    {"ablation 2D", ablation<2>},
+                    {"ablation 3D", ablation<3>},
+                    {"true gradient 1D", true_gradient<1>},
+                    {"true gradient 2D", true_gradient<2>},
+                    {"true gradient 3D", true_gradient<3>},
+                    {"line", line},
+                    {"mesh file 2D", mesh_file<2>},
+                    {"mesh file 3D", mesh_file<3>},
+                    {"wrong meshes", wrong_meshes},
+                    {"location 2D", location<2>},
+                    {"location 3D", location<3>},
+                    {"long: many particles 3D", many_particles<3>}});
+}
