@@ -1,4 +1,5 @@
 #include <talus/core/registry.h>
+#include <talus/core/transpose.h>
 #include <talus/grid/grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/particles/corners.h>
@@ -51,18 +52,18 @@ namespace Talus
       using Four   = Simd<4>; // phi and its gradient
 
       static constexpr unsigned int n_corners  = Corners<dim>::n;
-      static constexpr unsigned int n_hats     = 1u << dim;                // that are not zero at a corner
-      static constexpr int          max_extent = 5;                        // of the nodes that are merged, per axis
+      static constexpr unsigned int n_hats     = 1u << dim; // that are not zero at a corner
+      static constexpr int          max_extent = 5;         // of the nodes that are merged, per axis
       static constexpr unsigned int max_merged = dim == 2 ? 25 : 125;
 
       /** The corners of the domains of a batch. */
       struct Batch
       {
-        Number x[dim];                       // lattice coordinates of the particle
-        Number first[n_corners][dim];        // lattice index of the cell's lower node
-        Number distance[n_corners][dim];     // from it [h]
-        Number gradient[n_corners][dim];     // 2^-d sum_e s_ce r^e [1/length]
-        Number lowest[dim], extent[dim];     // the nodes of all corners: first index and number
+        Number  x[dim];                            // lattice coordinates of the particle
+        Number  lowest[dim], extent[dim];          // the nodes of all corners: first index and number
+        Number  hat[n_corners][n_hats];            // at each corner those of its cell
+        Simd<8> share[n_corners / 2][native_width]; // of a particle, two corners: 2^-d (1, sum_e s_ce r^e, 0)
+        alignas(64) int first[n_corners][dim][native_width]; // lattice index of the cell's lower node
       };
 
       void find(const dealii::Tensor<1, dim, Number> &x, const dealii::Tensor<2, dim, Number> &r, Batch &found) const
@@ -75,19 +76,34 @@ namespace Talus
           found.lowest[d] = 1e300;
           found.extent[d] = -1e300;
         }
+        Number rows[8];
         for (unsigned int c = 0; c < n_corners; ++c)
         {
           const auto coordinate = Corners<dim>::coordinates(*lattice, x + Corners<dim>::arm(r, c));
+          Number     weight[dim][2];
+          Number    *share = rows + (c % 2) * 4;
+          share[0]         = 1. / n_corners;
+          share[3]         = 0.;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            found.first[c][d]    = floor(coordinate[d]);
-            found.distance[c][d] = coordinate[d] - found.first[c][d];
-            found.lowest[d]      = min(found.lowest[d], found.first[c][d]);
-            found.extent[d]      = max(found.extent[d], found.first[c][d]);
-            found.gradient[c][d] = 0.;
+            const Number first = floor(coordinate[d]);
+            store_integers(first, found.first[c][d]);
+            weight[d][1]    = coordinate[d] - first;
+            weight[d][0]    = 1. - weight[d][1];
+            found.lowest[d] = min(found.lowest[d], first);
+            found.extent[d] = max(found.extent[d], first);
+            share[1 + d]    = 0.;
             for (unsigned int e = 0; e < dim; ++e)
-              found.gradient[c][d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
+              share[1 + d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
           }
+          for (unsigned int i = 0; i < n_hats; ++i)
+          {
+            found.hat[c][i] = weight[0][i & 1];
+            for (unsigned int d = 1; d < dim; ++d)
+              found.hat[c][i] *= weight[d][i >> d & 1];
+          }
+          if (c % 2 == 1)
+            lanes_to_vectors<native_width>(rows, found.share[c / 2]);
         }
         for (unsigned int d = 0; d < dim; ++d)
           found.extent[d] += 2. - found.lowest[d];
@@ -106,84 +122,86 @@ namespace Talus
         }
         stencil.reserve(is_small ? max_merged : n_corners * n_hats);
         stencil.is_at_slip_wall.fill(false);
-        if (!is_small)
+        Four sums[max_merged];
+        if (is_small)
         {
-          for_each_hat(found, l, [&](const auto &node, const Four &value) { add(found, l, node, value, stencil); });
-          return;
-        }
-        Four               sums[max_merged];
-        const int          size = extent[0] * extent[1] * (dim == 3 ? extent[dim - 1] : 1);
-        for (int i = 0; i < size; ++i)
-          sums[i] = 0.;
-        for_each_hat(found, l, [&](const auto &node, const Four &value) {
-          int i = node[dim - 1] - lowest[dim - 1];
-          for (unsigned int d = dim - 1; d-- > 0;)
-            i = i * extent[d] + node[d] - lowest[d];
-          sums[i] += value;
-        });
-        int i = 0;
-        for (int c = 0; c < (dim == 3 ? extent[dim - 1] : 1); ++c)
-          for (int b = 0; b < extent[1]; ++b)
-            for (int a = 0; a < extent[0]; ++a, ++i)
-            {
-              std::array<int, dim> node = lowest;
-              node[0] += a;
-              node[1] += b;
-              if constexpr (dim == 3)
-                node[2] += c;
-              add(found, l, node, sums[i], stencil);
-            }
-      }
-
-      /** Calls `body(node, value)` for the hats at all corners: lattice index of the node, share of phi and grad phi. */
-      template <class Body>
-      [[gnu::always_inline]] void for_each_hat(const Batch &found, const unsigned int l, const Body &body) const
-      {
-        for (unsigned int c = 0; c < n_corners; ++c)
-        {
-          alignas(32) double   factor[4] = {1. / n_corners, 0., 0., 0.};
-          std::array<int, dim> first;
-          double               weight[dim][2];
+          std::array<int, dim> stride;
+          int                  size = 1;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            factor[1 + d] = found.gradient[c][d].data()[l];
-            first[d]      = static_cast<int>(found.first[c][d].data()[l]);
-            weight[d][1]  = found.distance[c][d].data()[l];
-            weight[d][0]  = 1 - weight[d][1];
+            stride[d] = size;
+            size *= extent[d];
           }
-          const Four of_corner = Four::load(factor);
-          for (unsigned int i = 0; i < n_hats; ++i)
+          for (int i = 0; i < size; ++i)
+            sums[i] = 0.;
+          for (unsigned int c = 0; c < n_corners; ++c)
           {
-            std::array<int, dim> node = first;
-            double               hat  = 1;
+            int place = 0;
             for (unsigned int d = 0; d < dim; ++d)
-            {
-              node[d] += i >> d & 1;
-              hat *= weight[d][i >> d & 1];
-            }
-            body(node, hat * of_corner);
+              place += (found.first[c][d][l] - lowest[d]) * stride[d];
+            add_hats(found, c, l, stride, sums + place);
           }
+          list(found, l, lowest, extent, sums, stencil);
+          return;
+        }
+        const auto cell = std::array<int, 3>{{2, 2, dim == 3 ? 2 : 1}};
+        for (unsigned int c = 0; c < n_corners; ++c)
+        {
+          std::array<int, dim> first, stride, extents;
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            first[d]   = found.first[c][d][l];
+            stride[d]  = 1 << d;
+            extents[d] = cell[d];
+          }
+          for (unsigned int i = 0; i < n_hats; ++i)
+            sums[i] = 0.;
+          add_hats(found, c, l, stride, sums);
+          list(found, l, first, extents, sums, stencil);
         }
       }
 
-      void add(const Batch &found, const unsigned int l, const std::array<int, dim> &node, const Four &value,
-               Stencil<dim> &stencil) const
+      /** Adds what corner c gives to the nodes of its cell, the first of which is at `sums`. */
+      [[gnu::always_inline]] static void add_hats(const Batch &found, const unsigned int c, const unsigned int l,
+                                                  const std::array<int, dim> &stride, Four *sums)
       {
-        const double *numbers = value.data();
-        // Nodes of the merged box that no corner sees, among them those beyond the domain.
-        bool has_weight = numbers[0] != 0;
-        for (unsigned int d = 0; d < dim; ++d)
-          has_weight = has_weight || numbers[1 + d] != 0;
-        if (!has_weight)
-          return;
-        const unsigned int k = stencil.size++;
-        stencil.place[k]     = lattice->table_index(node);
-        stencil.weight[k]    = numbers[0];
-        for (unsigned int d = 0; d < dim; ++d)
+        const Four share = Four::load(found.share[c / 2][l].data() + c % 2 * 4);
+        for (unsigned int i = 0; i < n_hats; ++i)
         {
-          stencil.offset[d][k]   = (node[d] - found.x[d].data()[l]) * lattice->h[d];
-          stencil.gradient[d][k] = numbers[1 + d];
+          int place = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            place += (i >> d & 1) * stride[d];
+          sums[place] += found.hat[c][i].data()[l] * share;
         }
+      }
+
+      /** Appends a box of nodes to the list, x running fastest. */
+      [[gnu::always_inline]] void list(const Batch &found, const unsigned int l, const std::array<int, dim> &lowest,
+                                       const std::array<int, dim> &extent, const Four *sums,
+                                       Stencil<dim> &stencil) const
+      {
+        double offset[dim];
+        for (unsigned int d = 0; d < dim; ++d)
+          offset[d] = lowest[d] - found.x[d].data()[l];
+        const int place = lattice->table_index(lowest);
+        for (int c = 0; c < (dim == 3 ? extent[dim - 1] : 1); ++c)
+          for (int b = 0; b < extent[1]; ++b)
+            for (int a = 0; a < extent[0]; ++a)
+            {
+              const double *numbers = (sums++)->data();
+              // Nodes of the box that no corner sees, among them those beyond the domain.
+              if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0 && numbers[3] == 0)
+                continue;
+              const unsigned int k = stencil.size++;
+              const int          index[3] = {a, b, c};
+              stencil.place[k]  = place + a + b * lattice->stride[1] + (dim == 3 ? c * lattice->stride[dim - 1] : 0);
+              stencil.weight[k] = numbers[0];
+              for (unsigned int d = 0; d < dim; ++d)
+              {
+                stencil.offset[d][k]   = (offset[d] + index[d]) * lattice->h[d];
+                stencil.gradient[d][k] = numbers[1 + d];
+              }
+            }
       }
 
       static dealii::Tensor<2, dim, Number> invert(const dealii::Tensor<2, dim, Number> &r)

@@ -207,13 +207,15 @@ namespace Talus
         what << "deforms by |grad v| dt = " << increment << " in one step, more than 0.5";
       else if (is_outside)
         what << "left the grid";
+      else if (p == particles.outside)
+        what << "has a domain that reaches beyond the grid";
       else
         continue;
       if (particles.id[p] >= first.first)
         continue;
       what << ", at " << to_text(particles.vector(particles.position, p)) << " in step " << step << ", t = " << time
            << ", dt = " << dt << ". "
-           << (is_outside ? "Enlarge the grid, or lower the Courant number." :
+           << (is_outside || p == particles.outside ? "Enlarge the grid, or lower the Courant number." :
                             "Lower the Courant number, or correct the kernels near the boundary.");
       first = {particles.id[p], what.str()};
     }

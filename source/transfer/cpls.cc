@@ -2,7 +2,7 @@
 #include <talus/core/registry.h>
 #include <talus/particles/corners.h>
 #include <talus/transfer/flip.h>
-#include <talus/transfer/imls.h>
+#include <talus/transfer/imls_domains.h>
 
 namespace Talus
 {
@@ -57,36 +57,66 @@ namespace Talus
       }
 
     private:
+      using Number  = Simd<native_width>;
+      using Vector  = dealii::Tensor<1, dim, Number>;
+      using Domains = ImlsDomains<dim, 1 + Corners<dim>::n>;
+
+      /** The centre and the corners of each particle with their velocities. */
       template <class Fit>
       void scatter(const WorkingSet<dim> &particles, const Grid<dim> &grid, Fit &fit) const
       {
-        using Number = Simd<native_width>;
         const Corners<dim> corners(particles, half_edges);
         const auto         v = particles.template components<dim>(particles.velocity);
         const auto         L = particles.template components<dim * dim>(particles.grad_v);
+        Domains            domains;
         fit.clear(grid);
         for_each_batch(0, particles.size(), [&](const auto batch) {
-          const auto x = corners.position(batch), v_p = load_vector<dim>(batch, v);
-          const auto r = corners.half_edges(batch), grad_v = load_matrix<dim>(batch, L);
-          const auto add = [&](const dealii::Tensor<1, dim, Number> &arm) {
-            const auto coordinate = corners.coordinates(grid.lattice, x + arm);
-            const auto value      = v_p + grad_v * arm;
-            for (unsigned int l = 0; l < batch.size(); ++l)
-            {
-              double                 at[dim];
-              dealii::Tensor<1, dim> v_l;
-              for (unsigned int d = 0; d < dim; ++d)
-              {
-                at[d]  = coordinate[d].data()[l];
-                v_l[d] = value[d].data()[l];
-              }
-              fit.add(grid.lattice, at, v_l);
-            }
-          };
-          add({});
+          const auto x      = corners.position(batch);
+          const auto r      = corners.half_edges(batch);
+          domains.value     = load_vector<dim>(batch, v);
+          domains.gradient  = load_matrix<dim>(batch, L);
+          domains.point[0]  = corners.coordinates(grid.lattice, x);
           for (unsigned int c = 0; c < corners.n; ++c)
-            add(corners.arm(r, c));
+            domains.point[1 + c] = corners.coordinates(grid.lattice, x + corners.arm(r, c));
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int a = 0; a < dim; ++a)
+              domains.gradient[d][a] *= grid.lattice.h[a];
+          add(domains, batch.size(), grid.lattice, fit);
         });
+      }
+
+      static void add(Domains &domains, const unsigned int size, const Lattice<dim> &lattice, Imls<dim, 1> &fit)
+      {
+        if (domains.find(lattice))
+          domains.add(lattice, size, fit.numbers());
+        else
+          add_points(domains, size, lattice, fit);
+      }
+
+      static void add(Domains &domains, const unsigned int size, const Lattice<dim> &lattice, Imls<dim, 2> &fit)
+      {
+        add_points(domains, size, lattice, fit);
+      }
+
+      /** Whatever the basis, one datum after the other. */
+      template <class Fit>
+      static void add_points(const Domains &domains, const unsigned int size, const Lattice<dim> &lattice, Fit &fit)
+      {
+        for (const Vector &point : domains.point)
+        {
+          const Vector value = domains.value + domains.gradient * (point - domains.point[0]);
+          for (unsigned int l = 0; l < size; ++l)
+          {
+            double                 at[dim];
+            dealii::Tensor<1, dim> v;
+            for (unsigned int d = 0; d < dim; ++d)
+            {
+              at[d] = point[d].data()[l];
+              v[d]  = value[d].data()[l];
+            }
+            fit.add(lattice, at, v);
+          }
+        }
       }
 
       template <class Fit>

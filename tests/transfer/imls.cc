@@ -1,4 +1,4 @@
-#include <talus/transfer/imls.h>
+#include <talus/transfer/imls_domains.h>
 
 #include "../setup.h"
 
@@ -176,6 +176,70 @@ void imls_on_a_lattice()
   check("quadratic field", of_quadratic, 1e-10);
 }
 
+/** Domains in lanes, at faces and in corners too: the sums of their points one by one. */
+template <int dim>
+void imls_domains()
+{
+  Setup<dim>                             setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
+  const auto                            &lattice = setup.grid.lattice;
+  std::mt19937                           random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  constexpr unsigned int                 n_points = 1 + (1u << dim);
+  ImlsDomains<dim, n_points>             domains;
+  Imls<dim, 1>                           together, apart;
+  together.clear(setup.grid);
+  apart.clear(setup.grid);
+  bool is_short = true;
+  for (unsigned int repetition = 0; repetition < 50; ++repetition)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int l = 0; l < native_width; ++l)
+      {
+        const double centre = uniform(random) * lattice.n_cells[d];
+        for (unsigned int q = 0; q < n_points; ++q)
+          domains.point[q][d].set(l, std::min(std::max(centre + uniform(random) - 0.5, 0.), 1. * lattice.n_cells[d]));
+        domains.value[d].set(l, uniform(random));
+        for (unsigned int e = 0; e < dim; ++e)
+          domains.gradient[d][e].set(l, uniform(random));
+      }
+    // Only what lies in this rank's cells, of which it knows all nodes around.
+    const unsigned int size = 1 + repetition % native_width;
+    bool               is_local = true;
+    for (unsigned int l = 0; l < native_width; ++l)
+      for (unsigned int q = 0; q < n_points; ++q)
+      {
+        typename Lattice<dim>::Index index;
+        for (unsigned int d = 0; d < dim; ++d)
+          index[d] = std::min(static_cast<int>(domains.point[q][d][l]), lattice.n_cells[d] - 1);
+        is_local = is_local && lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
+      }
+    if (!is_local)
+      continue;
+    is_short = is_short && domains.find(lattice);
+    domains.add(lattice, size, together.numbers());
+    for (unsigned int l = 0; l < size; ++l)
+      for (const auto &point : domains.point)
+      {
+        double         at[dim];
+        Tensor<1, dim> v;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          at[d] = point[d][l];
+          v[d]  = domains.value[d][l];
+          for (unsigned int e = 0; e < dim; ++e)
+            v[d] += domains.gradient[d][e][l] * (point[e][l] - domains.point[0][e][l]);
+        }
+        apart.add(lattice, at, v);
+      }
+  }
+  check_true("short domains", is_short);
+  double difference = 0;
+  for (unsigned int i = 0; i < setup.grid.fields.n_local(); ++i)
+    for (unsigned int c = 0; c < Imls<dim, 1>::n_numbers; ++c)
+      raise(difference, together.numbers()[i][c] - apart.numbers()[i][c]);
+  check("domains and points", difference, 1e-11);
+}
+
 /** An affine velocity is exact at all nodes that have mass; the momentum of any other field is nearly kept. */
 template <int dim>
 void cpls_affine()
@@ -213,5 +277,7 @@ void cpls_affine()
 
 template void imls_on_a_lattice<2>();
 template void imls_on_a_lattice<3>();
+template void imls_domains<2>();
+template void imls_domains<3>();
 template void cpls_affine<2>();
 template void cpls_affine<3>();

@@ -25,6 +25,7 @@ DECLARE(traction_sums)
 DECLARE(traction_work)
 DECLARE(traction_errors)
 DECLARE(imls_on_a_lattice)
+DECLARE(imls_domains)
 DECLARE(cpls_affine)
 void imls_at_a_node();
 
@@ -34,6 +35,8 @@ int main(int argc, char **argv)
                    {{"IMLS at a node", imls_at_a_node},
                     {"IMLS on a lattice 2D", imls_on_a_lattice<2>},
                     {"IMLS on a lattice 3D", imls_on_a_lattice<3>},
+                    {"IMLS: domains 2D", imls_domains<2>},
+                    {"IMLS: domains 3D", imls_domains<3>},
                     {"CPLS: affine velocity 2D", cpls_affine<2>},
                     {"CPLS: affine velocity 3D", cpls_affine<3>},
                     {"mass and momentum 2D", mass_and_momentum<2>},

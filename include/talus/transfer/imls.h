@@ -96,6 +96,9 @@ namespace Talus
         }
     }
 
+    /** The sums, for those who add to them in another way. */
+    Array &numbers() { return sums; }
+
     /** Brings the sums to the nodes' owners. Collective. */
     void collect() { sums.add_copies_to_owners(); }
 
