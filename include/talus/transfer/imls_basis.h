@@ -52,19 +52,26 @@ namespace Talus
     }
     static constexpr std::array<Exponents, n_moments> monomials = make_monomials();
 
-    /** The place among the moments of p_j p_k. */
-    static constexpr unsigned int product(const unsigned int j, const unsigned int k)
+    using Places = std::array<std::array<unsigned int, n>, n>;
+
+    static constexpr Places make_products()
     {
-      for (unsigned int m = 0; m < n_moments; ++m)
-      {
-        bool is_it = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          is_it = is_it && monomials[m][d] == monomials[j][d] + monomials[k][d];
-        if (is_it)
-          return m;
-      }
-      return n_moments;
+      Places places{};
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int m = 0; m < n_moments; ++m)
+          {
+            bool is_it = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              is_it = is_it && monomials[m][d] == monomials[j][d] + monomials[k][d];
+            if (is_it)
+              places[j][k] = m;
+          }
+      return places;
     }
+
+    /** The place among the moments of p_j p_k. */
+    static constexpr Places products = make_products();
 
     /**
      * Weights c with v_i = sum_j c_j R_j, the fit's value at the node. Gram-Schmidt in the order of the monomials: with
@@ -74,13 +81,12 @@ namespace Talus
     static std::array<double, n> value_weights(const double *moments)
     {
       // M = L D L^T without the dropped functions, and then M c = e_0: only q_0 = 1 and what follows from it count.
-      constexpr double           smallest = 1e-8;
-      static constexpr auto      places   = make_places();
-      double                     L[n][n], D[n], y[n];
-      std::array<double, n>      c{};
+      constexpr double      smallest = 1e-8;
+      double                L[n][n], D[n], y[n];
+      std::array<double, n> c{};
       for (unsigned int j = 0; j < n; ++j)
       {
-        const double square = moments[places[j][j]];
+        const double square = moments[products[j][j]];
         D[j]                = square;
         y[j]                = j == 0 ? 1 : 0; // p_j at the node
         for (unsigned int k = 0; k < j; ++k)
@@ -88,7 +94,7 @@ namespace Talus
           L[j][k] = 0;
           if (D[k] == 0)
             continue;
-          double sum = moments[places[j][k]];
+          double sum = moments[products[j][k]];
           for (unsigned int m = 0; m < k; ++m)
             sum -= L[j][m] * D[m] * L[k][m];
           L[j][k] = sum / D[k];
@@ -109,16 +115,6 @@ namespace Talus
             c[j] -= L[i][j] * c[i];
       }
       return c;
-    }
-
-  private:
-    static constexpr std::array<std::array<unsigned int, n>, n> make_places()
-    {
-      std::array<std::array<unsigned int, n>, n> places{};
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int k = 0; k < n; ++k)
-          places[j][k] = product(j, k);
-      return places;
     }
   };
 } // namespace Talus

@@ -102,8 +102,9 @@ namespace Talus
     }
 
     /** Moments in the order of ImlsBasis: 1; x, y(, z); x^2, xy(, xz), y^2(, yz, z^2). */
-    void moments(const int a, const Number (&across)[n_points][n_across], Number *S) const
+    void moments(const int a, const Number (&across)[n_points][n_across], Number *result) const
     {
+      Number S[n_moments]; // in registers
       for (unsigned int m = 0; m < n_moments; ++m)
         S[m] = 0.;
       for (unsigned int q = 0; q < n_points; ++q)
@@ -119,6 +120,7 @@ namespace Talus
         for (unsigned int k = dim; k < n_across; ++k)
           S[1 + dim + k] += x[0] * w[k];
       }
+      std::copy_n(S, n_moments, result);
     }
 
     template <class Array>
@@ -139,7 +141,7 @@ namespace Talus
         {
           Number R = A[d] * numbers[j];
           for (unsigned int a = 0; a < dim; ++a)
-            R += gradient[d][a] * numbers[ImlsBasis<dim, 1>::product(j, 1 + a)];
+            R += gradient[d][a] * numbers[ImlsBasis<dim, 1>::products[j][1 + a]];
           numbers[n_moments + dim * j + d] = R;
         }
       for (unsigned int i = n_moments + dim * (dim + 1); i < 8 * n_registers; ++i)
