@@ -4,6 +4,9 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$(cd "$root" && realpath -m "${TALUS_BUILD:-build}")
 export TALUS_BUILD=$build
 
+# True when one of the arguments asks for help, which needs nothing to be installed or built.
+wants_help() { case " $* " in *" --help "* | *" -h "*) true ;; *) false ;; esac; }
+
 # Installs what is missing and builds the program; quick when there is nothing to do.
 prepare() {
   "$root/contrib/install-dependencies"

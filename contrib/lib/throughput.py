@@ -22,16 +22,26 @@ SILENT = {"Output/Final state": "false", "Output/Time interval": 0, "Output/Step
 
 KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP"}
 TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC"}
-TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none"}
+TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none",
+              "mirror": "mirror"}
 MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic"},
              "mises": {"Type": "von Mises", "Yield stress": 500}, "dp": {"Type": "Drucker-Prager"},
-             "fluid": {"Type": "Newtonian fluid"}}
+             "fluid": {"Type": "Newtonian fluid"}, "two": {"Type": "neo-Hookean"}}
 TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
          "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
-         "quadratic-tpic-everywhere-neo"]
+         "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-wls-two"]
 NOT_STEPS = {"set-up", "output", "finite element reference", "total"}
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
+# Mirrors are at slip walls. Two materials, one in each half, take off together, so that particles change ranks.
+MIRROR = {"Conditions/floor/Type": "slip"}
+TWO = {"Materials/Names": "soil, stone", "Materials/stone/Type": "linear elastic", "Bodies/Names": "block, top",
+       "Bodies/top/Material": "stone", "Bodies/top/Particles per cell and direction": 2}
+HALVES = {2: {"Bodies/block/Upper corner": "1, 0.5", "Bodies/top/Lower corner": "0, 0.5",
+              "Bodies/top/Upper corner": "1, 1", "Bodies/block/Velocity": "0.5; 0.5", "Bodies/top/Velocity": "0.5; 0.5"},
+          3: {"Bodies/block/Upper corner": "1, 1, 0.5", "Bodies/top/Lower corner": "0, 0, 0.5",
+              "Bodies/top/Upper corner": "1, 1, 1", "Bodies/block/Velocity": "2; 2; 2",
+              "Bodies/top/Velocity": "2; 2; 2"}}
 
 
 @dataclasses.dataclass
@@ -51,6 +61,7 @@ class Row:
     bytes_per_particle: float = 0
     peak_bytes: float = 0
     phases: dict = dataclasses.field(default_factory=dict)
+    instructions: list = dataclasses.field(default_factory=list)  # per particle and step; empty where nobody counts
 
 
 def table_row(name, dim, steps):
@@ -65,6 +76,8 @@ def table_row(name, dim, steps):
     settings = {"Kernel/Type": KERNELS[kernel], "Kernel/Boundary treatment": TREATMENTS[treatment],
                 "Transfer/Type": TRANSFERS[transfer]}
     settings.update({f"Materials/soil/{entry}": value for entry, value in MATERIALS[material].items()})
+    settings.update(MIRROR if treatment == "mirror" else {})
+    settings.update({**TWO, **HALVES[dim]} if material == "two" else {})
     return Row(name, dim, prm, steps or default_steps, settings)
 
 
@@ -76,17 +89,45 @@ def without_elasticity(prm, directory):
     return str(path)
 
 
-def timed_run(row, settings, n_steps, ranks):
-    """Wall and processor time, that of the busiest rank, and the steps by the program's own clock [s]."""
+class Counter:
+    """Counts the instructions of a run, with what can: perf, or valgrind on request; one rank."""
+    PERF = ["perf", "stat", "--field-separator", ",", "--event", "instructions:u"]
+
+    def __init__(self, ranks, wants_callgrind):
+        self.command, self.pattern = [], None
+        if wants_callgrind:
+            self.command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+            self.pattern = r"Collected : (\d+)"
+        elif ranks == 1 and self.perf_counts():
+            self.command, self.pattern = self.PERF + ["--"], r"^(\d+),[^,]*,instructions:u"
+
+    def perf_counts(self):
+        try:
+            text = subprocess.run(self.PERF + ["true"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True).stderr
+        except FileNotFoundError:
+            return False
+        return re.search(r"^\d+,", text, re.M) is not None
+
+    def read(self, output):
+        found = re.search(self.pattern, output, re.M) if self.pattern else None
+        return float(found[1]) if found else None
+
+
+def timed_run(row, settings, n_steps, ranks, counter):
+    """Wall and processor time, that of the busiest rank, the steps by the program's own clock [s], and instructions."""
     start = time.perf_counter()
     process = subprocess.Popen(
-        runs.command(row.prm, {**row.settings, **settings, "Run/Number of steps": n_steps}, ranks), text=True,
-        cwd=runs.ROOT, env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        counter.command + runs.command(row.prm, {**row.settings, **settings, "Run/Number of steps": n_steps}, ranks),
+        text=True, cwd=runs.ROOT, env={**os.environ, "OMP_NUM_THREADS": "1"}, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT)
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
     wall = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
+        if "unhandled instruction" in output:
+            runs.stop("valgrind does not know this processor's instructions. Build with -D TALUS_NATIVE=OFF, in a "
+                      "directory of its own, and name that in TALUS_BUILD.")
         runs.stop(f"the run '{row.name}' of {n_steps} steps failed:\n{output[-2000:]}")
     particles = re.search(r"^ *particles +(\d+)", output, re.M)
     taken = re.findall(r"step (\d+), time", output)
@@ -107,20 +148,23 @@ def timed_run(row, settings, n_steps, ranks):
     sent = re.search(r"a rank sends (\S+) messages and (\S+) kB", output)
     if sent:
         row.messages, row.sent = float(sent[1]), float(sent[2])
-    return wall, processor, float(busiest[1]) if busiest else processor, parts
+    return wall, processor, float(busiest[1]) if busiest else processor, parts, counter.read(output)
 
 
 def measure(rows, arguments, settings):
+    counter = Counter(arguments.ranks, arguments.callgrind)
     for repeat in range(arguments.repeats):
         # All rows in turn, and long and short runs in turn, so that a machine that slows down does so for all.
         for row in rows:
-            short = timed_run(row, settings, row.steps, arguments.ranks)
-            long = timed_run(row, settings, 2 * row.steps, arguments.ranks)
+            short = timed_run(row, settings, row.steps, arguments.ranks, counter)
+            long = timed_run(row, settings, 2 * row.steps, arguments.ranks, counter)
             work = row.steps * row.particles
             row.wall.append(1e9 * (long[0] - short[0]) / work)
             row.processor.append(1e9 * (long[1] - short[1]) / work)
             row.busiest.append(1e9 * (long[2] - short[2]) / work)
             row.parts.append(1e9 * long[3] / (2 * work))
+            if long[4]:
+                row.instructions.append((long[4] - short[4]) / work)
             if not arguments.csv:
                 print(f"  repeat {repeat + 1} of {arguments.repeats}, {row.name} {row.dim}D: {row.wall[-1]:.1f} ns "
                       f"wall, {row.processor[-1]:.1f} ns processor", flush=True)
@@ -158,13 +202,20 @@ def parse_arguments():
     parser.add_argument("--repeats", type=int, default=5, help="repeats, of which the median counts (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks (%(default)s)")
     parser.add_argument("--csv", action="store_true",
-                        help="print name,dim,ranks,particles,ns_median,ns_min,ns_max,bytes_per_particle and no more")
+                        help="print name,dim,ranks,particles,ns_median,ns_min,ns_max,bytes_per_particle,instructions and "
+                        "no more; the last is empty where nothing counts them")
+    parser.add_argument("--callgrind", action="store_true",
+                        help="count instructions with valgrind, some fifty times as slow: times mean nothing, --repeats "
+                        "is 1, and few steps do (--steps 5). Without it perf counts them where it can, on one rank")
     parser.add_argument("--set", action="append", default=[], metavar='"Section/Entry = value"', help="as for talus")
     arguments = parser.parse_args()
     if arguments.prm and not arguments.prm.is_file():
         parser.error(f"there is no file '{arguments.prm}'.")
     if arguments.prm and arguments.rows:
         parser.error("give a file or rows of the table, not both.")
+    if arguments.callgrind and arguments.ranks > 1:
+        parser.error("--callgrind counts on one rank.")
+    arguments.repeats = 1 if arguments.callgrind else arguments.repeats
     if arguments.steps < 0 or min(arguments.repeats, arguments.ranks) < 1:
         parser.error("--steps, --repeats and --ranks must be positive.")
     if any("=" not in text for text in arguments.set):
@@ -191,6 +242,10 @@ def report(rows, arguments):
               f" {row.bytes_per_particle:12.0f} {row.peak_bytes:6.0f} {1e9 * traffic(row.dim) / speed:17.1f}")
     print("In steps: the sum of the parts of a step by the program's own clock, free of the noise of set-up.")
     print(f"\nMedian of {arguments.repeats}, {arguments.ranks} rank(s). One core moves {speed / 1e9:.1f} GB/s.")
+    if any(row.instructions for row in rows):
+        print("Instructions per particle and step:")
+        for row in rows:
+            print(f"  {row.name} {row.dim}D: {statistics.median(row.instructions):.1f}")
     if arguments.ranks > 1:
         print("Busiest rank's processor time outside waiting, per particle of all ranks [ns]; what a rank sends in a step:")
         for row in rows:
@@ -226,7 +281,8 @@ def main():
         writer = csv.writer(sys.stdout)
         for row in rows:
             writer.writerow([row.name, row.dim, arguments.ranks, row.particles, f"{statistics.median(row.wall):.2f}",
-                             f"{min(row.wall):.2f}", f"{max(row.wall):.2f}", f"{row.bytes_per_particle:.0f}"])
+                             f"{min(row.wall):.2f}", f"{max(row.wall):.2f}", f"{row.bytes_per_particle:.0f}",
+                             f"{statistics.median(row.instructions):.2f}" if row.instructions else ""])
     else:
         report(rows, arguments)
     return 0
