@@ -16,6 +16,7 @@ DECLARE(lost)
 DECLARE(drift)
 DECLARE(outside)
 DECLARE(surfaces)
+DECLARE(clipped)
 
 int main(int argc, char **argv)
 {
@@ -45,5 +46,7 @@ int main(int argc, char **argv)
                     {"outside 2D", outside<2>},
                     {"outside 3D", outside<3>},
                     {"surfaces 2D", surfaces<2>},
-                    {"surfaces 3D", surfaces<3>}});
+                    {"surfaces 3D", surfaces<3>},
+                    {"clip to grid 2D", clipped<2>},
+                    {"clip to grid 3D", clipped<3>}});
 }
