@@ -79,27 +79,48 @@ namespace Talus
       void parse_parameters(ParameterHandler &prm) override
       {
         Condition<dim>::parse_parameters(prm);
-        if (this->boundary_ids.empty())
+        if (this->faces.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
-                           "slip needs the faces whose normals it acts along. A box of nodes has none.");
+                           "slip needs the faces or half spaces whose normals it acts along. A box of nodes has none.");
       }
 
       bool is_slip() const override { return true; }
 
     private:
+      /** Stops a node along the normal. */
+      virtual void stop(const unsigned int i, const unsigned int axis) { this->set(i, axis, 0.); }
+
       void prescribe(const double, Grid<dim> &grid) override
       {
-        for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
-          const unsigned int id = this->boundary_ids[f];
+          const unsigned int id = this->faces[f];
           for (const unsigned int i : this->nodes[f])
-            this->set(i, id / 2, 0.);
+            stop(i, id / 2);
+          if (f >= this->boundary_ids.size())
+            continue; // planes inside the grid mirror nothing
           // Of two conditions on one face the first has it.
           const double mirrored = std::exchange(grid.fields.mirrored_force[id], 0.);
           this->reaction[id / 2] += mirrored;
           this->nodal_force[id / 2] += mirrored;
         }
       }
+    };
+
+    /**
+     * A plane of symmetry: along its normal velocities *and accelerations* of nodes at it and beyond are zero. What
+     * particles on one side alone bring to such a node is of the order of the spacing and no velocity of the plane;
+     * slip hands its loss to transfers that carry increments (FLIP, CPLS), which costs half an order at the plane.
+     * Test: tests/boundary/main.cc; tests/regression/verification.py.
+     */
+    template <int dim>
+    class Symmetry : public Slip<dim>
+    {
+    public:
+      using Slip<dim>::Slip;
+
+    private:
+      void stop(const unsigned int i, const unsigned int axis) override { this->arrest(i, axis); }
     };
 
     /**
@@ -124,9 +145,9 @@ namespace Talus
       {
         Condition<dim>::parse_parameters(prm);
         wall.initialize(wall_text, this->get_section_name(), "Wall velocity");
-        if (this->boundary_ids.empty())
+        if (this->faces.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
-                           "friction needs the faces whose normals press. A box of nodes has none.");
+                           "friction needs the faces or half spaces whose normals press. A box of nodes has none.");
         if (!(mu >= 0))
           throw EntryError(this->get_section_name(), "Friction coefficient",
                            "it must not be negative; 0 is a wall without friction.");
@@ -137,10 +158,10 @@ namespace Talus
       {
         using Fields          = NodalFields<dim>;
         Tensor<1, dim> v_wall = wall.value({}, time);
-        for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
-          const unsigned int axis    = this->boundary_ids[f] / 2;
-          const double       outward = this->boundary_ids[f] % 2 == 0 ? -1 : 1;
+          const unsigned int axis    = this->faces[f] / 2;
+          const double       outward = this->faces[f] % 2 == 0 ? -1 : 1;
           for (const unsigned int i : this->nodes[f])
           {
             if (wall.depends_on_space())
@@ -168,6 +189,7 @@ namespace Talus
     const RegisterDimensions<Condition, Velocity> velocity("velocity", "velocity as a function of place and time");
     const RegisterDimensions<Condition, NoSlip>   no_slip("no-slip", "nodes are fixed");
     const RegisterDimensions<Condition, Slip>     slip("slip", "no motion along the normal of a face");
+    const RegisterDimensions<Condition, Symmetry> symmetry("symmetry", "no motion and no acceleration along a normal");
     const RegisterDimensions<Condition, Friction> friction("friction", "Coulomb friction on a face, free to lift off");
   } // namespace
 } // namespace Talus
