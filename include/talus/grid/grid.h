@@ -23,7 +23,7 @@ namespace Talus
   public:
     using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
 
-    Grid(const std::string &section, MPI_Comm communicator);
+    Grid(const std::string &section, const Communicator &communicator);
 
     /**
      * Builds triangulation, nodes, lattice and fields for what kernels and transfers ask for. `weight` estimates
@@ -70,7 +70,7 @@ namespace Talus
 
     const CellIterator &owned_cell(const unsigned int active_cell_index) const { return cells[active_cell_index]; }
 
-    MPI_Comm                                          communicator;
+    Communicator                                      communicator;
     dealii::parallel::distributed::Triangulation<dim> triangulation;
     dealii::DoFHandler<dim>                           dof_handler;
     Lattice<dim>                                      lattice;
