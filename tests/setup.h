@@ -1,15 +1,7 @@
 #pragma once
 
-#include <talus/boundary/condition.h>
-#include <talus/core/body_force.h>
-#include <talus/core/parameters.h>
-#include <talus/grid/grid.h>
-#include <talus/kernels/kernel.h>
 #include <talus/particles/lattice_shape.h>
-#include <talus/particles/particles.h>
-#include <talus/transfer/tractions.h>
-#include <talus/transfer/transfer.h>
-#include <talus/transfer/volume_smoothing.h>
+#include <talus/steppers/model.h>
 
 #include "check.h"
 
@@ -83,35 +75,35 @@ namespace Test
         section("walls", set("Type", type) + set("Boundary ids", dim == 2 ? "0, 1, 2, 3" : "0, 1, 2, 3, 4, 5")));
   }
 
+  /** The text of a parameter file; a base class, so that it is read before a model asks for it. */
+  class Text
+  {
+  public:
+    explicit Text(const std::string &text) : parameters(Parameters::from_text(text)) {}
+
+    Parameters parameters;
+  };
+
+  /** The model of a run before its first step, and single passes of a step. */
   template <int dim>
-  class Setup
+  class Setup : public Text, public Model<dim>
   {
   public:
     explicit Setup(const std::string &text, const bool half_edges = false) :
-      parameters(Parameters::from_text(text)), grid("/Grid", MPI_COMM_WORLD),
-      kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "")),
-      transfer(parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", ""))
+      Text(text), Model<dim>(parameters, MPI_COMM_WORLD)
     {
-      kernel->choose(parameters);
-      kernel->attach(grid);
-      const auto material_names = parameters.names("/Materials", "");
-      for (const auto &name : material_names)
-        materials.push_back(parameters.make<Material>("/Materials/" + name, "Type", "linear elastic", ""));
-      const auto body_names = parameters.names("/Bodies", "");
-      for (const auto &name : body_names)
-        bodies.push_back(std::make_unique<Body<dim>>(parameters, name, material_names));
-      for (const auto &name : parameters.names("/Conditions", ""))
-        boundary.conditions.push_back(parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", ""));
-      for (const auto &name : parameters.names("/Tractions", ""))
-        tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
-      kernel->add_fields(particles);
-      transfer->add_fields(particles);
       if (half_edges)
         particles.add_half_edges();
       parameters.parse();
-      accelerate(dim == 2 ? "0; 0" : "0; 0; 0");
-      create();
+      this->create();
     }
+
+    using Model<dim>::grid;
+    using Model<dim>::kernel;
+    using Model<dim>::transfer;
+    using Model<dim>::particles;
+    using Model<dim>::boundary;
+    using Model<dim>::acceleration;
 
     void accelerate(const std::string &text) { acceleration.initialize(text, "/", "Body force"); }
 
@@ -170,36 +162,6 @@ namespace Test
       Stencil<dim> result;
       kernel->evaluate(particles, p, p + 1, &result);
       return result;
-    }
-
-    Parameters                              parameters;
-    Grid<dim>                               grid;
-    std::unique_ptr<Kernel<dim>>            kernel;
-    std::unique_ptr<Transfer<dim>>          transfer;
-    std::vector<std::unique_ptr<Material>>  materials;
-    std::vector<std::unique_ptr<Body<dim>>> bodies;
-    Particles<dim>                          particles;
-    Boundary<dim>                           boundary;
-    BodyForce<dim>                          acceleration;
-    Tractions<dim>                          tractions;
-    VolumeSmoothing<dim>                    smoothing;
-
-  private:
-    void create()
-    {
-      for (auto &body : bodies)
-        body->shape->create(grid.lattice.h);
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, transfer->reach(*kernel));
-      particles.set_reach(grid, transfer->reach(*kernel));
-      smoothing.add_fields(materials, particles);
-      if (!bodies.empty())
-        particles.create(grid, bodies, materials);
-      for (auto &condition : boundary.conditions)
-        condition->attach(grid);
-      boundary.mark_slip_walls(1e-300, particles.n_stencil_nodes, grid);
-      transfer->initialize(*kernel, particles);
-      for (auto &traction : tractions.loads)
-        traction->attach(grid, bodies, particles);
     }
   };
 

@@ -167,6 +167,15 @@ namespace Talus
     grid.set_slip_walls(faces, n);
   }
 
+  template <int dim>
+  void Boundary<dim>::add_to(Table &table) const
+  {
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      table.add("reaction " + names[c], "force", conditions[c]->reaction);
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+      table.add("nodal force " + names[c], "force", conditions[c]->nodal_force);
+  }
+
   template class Condition<2>;
   template class Condition<3>;
   template class Boundary<2>;

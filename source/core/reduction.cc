@@ -1,5 +1,4 @@
 #include <talus/core/reduction.h>
-#include <talus/core/traffic.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -24,31 +23,45 @@ namespace Talus
       for (int i = n_maxima + 1; i < n; ++i)
         b[i] += a[i];
     }
+
+    /** Replaces a message by that of all ranks. */
+    void reduce(std::vector<double> &message, const Communicator &communicator)
+    {
+      MPI_Datatype type;
+      MPI_Op       operation;
+      MPI_Type_contiguous(message.size(), MPI_DOUBLE, &type);
+      MPI_Type_commit(&type);
+      MPI_Op_create(combine, /* commutes = */ 1, &operation);
+      communicator.sent(message.size() * sizeof(double));
+      {
+        const Communicator::Wait wait(communicator);
+        const int                error = MPI_Allreduce(MPI_IN_PLACE, message.data(), 1, type, operation, communicator);
+        AssertThrowMPI(error);
+      }
+      MPI_Op_free(&operation);
+      MPI_Type_free(&type);
+    }
   } // namespace
 
-  void reduce(std::vector<double> &maxima, std::vector<double> &sums, MPI_Comm communicator)
+  void Reduction::run(const Communicator &communicator)
   {
     if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
-    std::vector<double> message(1, maxima.size());
-    message.insert(message.end(), maxima.begin(), maxima.end());
-    message.insert(message.end(), sums.begin(), sums.end());
+    std::vector<double> message(1, maxima.size() + flags.size());
+    for (const double *value : maxima)
+      message.push_back(*value);
+    for (const bool *flag : flags)
+      message.push_back(*flag);
+    for (const double *value : sums)
+      message.push_back(*value);
+    reduce(message, communicator);
 
-    MPI_Datatype type;
-    MPI_Op       operation;
-    MPI_Type_contiguous(message.size(), MPI_DOUBLE, &type);
-    MPI_Type_commit(&type);
-    MPI_Op_create(combine, /* commutes = */ 1, &operation);
-    Traffic::here().sent(message.size() * sizeof(double));
-    {
-      const Traffic::Wait wait;
-      const int           error = MPI_Allreduce(MPI_IN_PLACE, message.data(), 1, type, operation, communicator);
-      AssertThrowMPI(error);
-    }
-    MPI_Op_free(&operation);
-    MPI_Type_free(&type);
-
-    std::copy_n(message.begin() + 1, maxima.size(), maxima.begin());
-    std::copy(message.begin() + 1 + maxima.size(), message.end(), sums.begin());
+    auto next = message.begin() + 1;
+    for (double *value : maxima)
+      *value = *next++;
+    for (bool *flag : flags)
+      *flag = *next++ > 0;
+    for (double *value : sums)
+      *value = *next++;
   }
 } // namespace Talus

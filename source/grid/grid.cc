@@ -29,7 +29,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  Grid<dim>::Grid(const std::string &section, MPI_Comm communicator) :
+  Grid<dim>::Grid(const std::string &section, const Communicator &communicator) :
     ParameterAcceptor(section), communicator(communicator),
     triangulation(communicator, Triangulation<dim>::none,
                   parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),

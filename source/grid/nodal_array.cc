@@ -1,4 +1,3 @@
-#include <talus/core/traffic.h>
 #include <talus/grid/nodal_array.h>
 
 #include <sys/mman.h>
@@ -53,10 +52,10 @@ namespace Talus
       for (const unsigned int i : to[k].nodes)
         next = std::copy_n(values + static_cast<std::size_t>(n) * nodes.place(i), n, next);
       MPI_Isend(out[k].data(), out[k].size(), MPI_DOUBLE, to[k].rank, message_tag, nodes.communicator, &*request++);
-      Traffic::here().sent(out[k].size() * sizeof(double));
+      nodes.communicator.sent(out[k].size() * sizeof(double));
     }
     {
-      const Traffic::Wait wait;
+      const Communicator::Wait wait(nodes.communicator);
       MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
     }
     // In the order of the ranks and not of arrival: sums are then the same in each run.

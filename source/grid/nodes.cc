@@ -6,7 +6,7 @@ namespace Talus
 {
   using namespace dealii;
 
-  void Nodes::reinit(const IndexSet &owned, const IndexSet &relevant, MPI_Comm communicator,
+  void Nodes::reinit(const IndexSet &owned, const IndexSet &relevant, const Communicator &communicator,
                      const std::vector<unsigned int> &places, const std::size_t n_places)
   {
     const Utilities::MPI::Partitioner partitioner(owned, relevant, communicator);

@@ -3,8 +3,7 @@
 namespace Talus
 {
   template <int dim>
-  MaterialRange material_range(WorkingSet<dim> &particles, const Material &material, const unsigned int m,
-                               const double dt)
+  MaterialRange material_range(WorkingSet<dim> &particles, const unsigned int m, const double dt)
   {
     MaterialRange range;
     const bool    has_particles = m + 1 < particles.material_begin.size();
@@ -23,29 +22,27 @@ namespace Talus
       }
     for (unsigned int c = 0; c < particles.n_stress; ++c)
       range.stress[c] = particles.component(particles.stress, c);
-    range.mass       = particles.component(particles.mass, 0);
-    range.volume     = particles.component(particles.volume, 0);
-    const auto names = material.state_names();
-    Assert(names.size() <= range.max_states, dealii::ExcIndexRange(names.size(), 0, range.max_states));
-    for (unsigned int s = 0; s < names.size(); ++s)
-      range.state[s] = particles.component(particles.add_field(names[s], 1), 0);
+    range.mass         = particles.component(particles.mass, 0);
+    range.volume       = particles.component(particles.volume, 0);
+    const auto &states = particles.state_fields[m];
+    AssertIndexRange(states.size(), range.max_states + 1);
+    for (unsigned int k = 0; k < states.size(); ++k)
+      range.state[k] = particles.component(states[k], 0);
     return range;
   }
 
   template <int dim>
-  std::vector<MaterialRange> material_ranges(WorkingSet<dim>                              &particles,
-                                             const std::vector<std::unique_ptr<Material>> &materials, const double dt)
+  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt)
   {
     std::vector<MaterialRange> ranges;
-    for (unsigned int m = 0; m < materials.size(); ++m)
-      ranges.push_back(material_range(particles, *materials[m], m, dt));
+    for (unsigned int m = 0; m < particles.state_fields.size(); ++m)
+      ranges.push_back(material_range(particles, m, dt));
     return ranges;
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template MaterialRange material_range(WorkingSet<dim> &, const Material &, const unsigned int, const double);        \
-  template std::vector<MaterialRange> material_ranges(WorkingSet<dim> &,                                               \
-                                                      const std::vector<std::unique_ptr<Material>> &, const double);
+  template MaterialRange              material_range(WorkingSet<dim> &, const unsigned int, const double);             \
+  template std::vector<MaterialRange> material_ranges(WorkingSet<dim> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

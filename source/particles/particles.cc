@@ -1,6 +1,5 @@
 #include <talus/core/batch.h>
 #include <talus/core/exceptions.h>
-#include <talus/core/traffic.h>
 #include <talus/particles/corners.h>
 #include <talus/particles/particles.h>
 
@@ -53,8 +52,8 @@ namespace Talus
       if (any(is_outside))
       {
         for (unsigned int l = 0; l < batch.size(); ++l)
-          if (is_outside[l])
-            outside = std::min(outside, batch.p + l);
+          if (is_outside[l] && (outside == none || this->id[batch.p + l] < this->id[outside]))
+            outside = batch.p + l;
       }
       else if (!knows_all_stencils)
       {
@@ -171,10 +170,10 @@ namespace Talus
         message.push_back(this->column(c)[leavers[i]]);
     }
     for (const auto &[rank, message] : messages)
-      Traffic::here().sent(message.size() * sizeof(double));
+      grid->communicator.sent(message.size() * sizeof(double));
     std::vector<const double *> arrivals;
     const auto                  received = [&] {
-      const Traffic::Wait wait;
+      const Communicator::Wait wait(grid->communicator);
       return Utilities::MPI::some_to_some(grid->communicator, messages);
     }();
     for (const auto &[rank, message] : received)

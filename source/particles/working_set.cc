@@ -73,6 +73,14 @@ namespace Talus
   }
 
   template <int dim>
+  void WorkingSet<dim>::add_states(const std::vector<std::string> &names)
+  {
+    state_fields.emplace_back();
+    for (const auto &name : names)
+      state_fields.back().push_back(add_field(name, 1));
+  }
+
+  template <int dim>
   void WorkingSet<dim>::resize(const unsigned int n_particles)
   {
     id.resize(n_particles);

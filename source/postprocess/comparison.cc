@@ -68,14 +68,14 @@ namespace Talus
 
   template <int dim>
   void Comparison<dim>::accumulate(const double time, const double dt, const double end_time,
-                                   const std::vector<Tensor<1, dim>> &reactions, WorkingSet<dim> &particles)
+                                   const Boundary<dim> &boundary, WorkingSet<dim> &particles)
   {
     if (time <= average_from * end_time)
       return;
     averaged_time += dt;
-    mean_reactions.resize(reactions.size());
-    for (unsigned int c = 0; c < reactions.size(); ++c)
-      mean_reactions[c] += dt * end_time / time * reactions[c];
+    mean_reactions.resize(boundary.conditions.size());
+    for (unsigned int c = 0; c < boundary.conditions.size(); ++c)
+      mean_reactions[c] += dt * end_time / time * boundary.conditions[c]->reaction;
     for (unsigned int c = 0; c < particles.n_stress; ++c)
     {
       double       *sum    = particles.component(mean_stress, c);

@@ -1,4 +1,3 @@
-#include <talus/core/reduction.h>
 #include <talus/particles/material_range.h>
 #include <talus/postprocess/energies.h>
 
@@ -26,7 +25,7 @@ namespace Talus
       return value;
     }
 
-    /** Visits all sums, so that one order serves the message, the columns and the row. */
+    /** Visits all sums under their names: one list serves message and table. */
     template <class AnyTotals, class Visitor>
     void visit(AnyTotals &totals, const Visitor &visitor)
     {
@@ -53,7 +52,7 @@ namespace Talus
       double              energy = 0;
       for (unsigned int m = 0; m < materials.size(); ++m)
       {
-        const MaterialRange range = material_range(particles, *materials[m], m, /* dt = */ 0.);
+        const MaterialRange range = material_range(particles, m, /* dt = */ 0.);
         densities.resize(range.end - range.begin);
         materials[m]->strain_energy_densities(range, densities.data());
         for (unsigned int p = range.begin; p < range.end; ++p)
@@ -64,25 +63,20 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  std::vector<Column> Totals<dim>::columns()
+  void Totals<dim>::add_to(Reduction &reduction)
   {
-    std::vector<Column> columns;
-    const Totals        none;
-    visit(none, [&](const std::string &name, const std::string &unit, auto) { columns.push_back({name, unit}); });
-    return columns;
+    visit(*this, [&](const auto &, const auto &, double &value) { reduction.sum(value); });
   }
 
   template <int dim>
-  std::vector<double> Totals<dim>::values() const
+  void Totals<dim>::add_to(Table &table) const
   {
-    std::vector<double> values;
-    visit(*this, [&](const auto &, const auto &, const double value) { values.push_back(value); });
-    return values;
+    visit(*this, [&](const auto &name, const auto &unit, const double &value) { table.add(name, unit, value); });
   }
 
   template <int dim>
   Totals<dim> totals(WorkingSet<dim> &particles, const Transfer<dim> &transfer,
-                     const std::vector<std::unique_ptr<Material>> &materials, MPI_Comm communicator)
+                     const std::vector<std::unique_ptr<Material>> &materials, const Communicator &communicator)
   {
     const auto x      = particles.template components<dim>(particles.position);
     const auto v      = particles.template components<dim>(particles.velocity);
@@ -108,17 +102,16 @@ namespace Talus
     }
     sum.strain_energy = strain_energy(particles, materials);
 
-    std::vector<double> no_maxima, message = sum.values();
-    reduce(no_maxima, message, communicator);
-    auto next = message.begin();
-    visit(sum, [&](const auto &, const auto &, double &value) { value = *next++; });
+    Reduction reduction;
+    sum.add_to(reduction);
+    reduction.run(communicator);
     return sum;
   }
 
   template struct Totals<2>;
   template struct Totals<3>;
   template Totals<2> totals(WorkingSet<2> &, const Transfer<2> &, const std::vector<std::unique_ptr<Material>> &,
-                            MPI_Comm);
+                            const Communicator &);
   template Totals<3> totals(WorkingSet<3> &, const Transfer<3> &, const std::vector<std::unique_ptr<Material>> &,
-                            MPI_Comm);
+                            const Communicator &);
 } // namespace Talus

@@ -17,23 +17,26 @@ namespace Talus
   template <int dim>
   void LoadCurve<dim>::compute(const double end_time, const std::string &file_name)
   {
-    const auto          names   = reference.condition_names();
-    std::vector<Column> columns = {{"time", "time"}};
-    for (const auto &name : names)
+    const auto                  names = reference.condition_names();
+    double                      time  = 0;
+    std::vector<Tensor<1, dim>> displacements(names.size()), forces(names.size());
+    Table                       table;
+    table.add("time", "time", time);
+    for (unsigned int c = 0; c < names.size(); ++c)
     {
-      for (unsigned int d = 0; d < dim; ++d)
-        columns.push_back({"displacement " + name + " " + "xyz"[d], "length"});
-      for (unsigned int d = 0; d < dim; ++d)
-        columns.push_back({"force " + name + " " + "xyz"[d], "force"});
+      table.add("displacement " + names[c], "length", displacements[c]);
+      table.add("force " + names[c], "force", forces[c]);
     }
     CsvFile file;
-    file.open(file_name, columns, communicator);
-    reference.solve(end_time, [&](const double time) {
-      std::vector<double> row = {time};
-      for (const auto &name : names)
-        for (const Tensor<1, dim> &vector : {reference.mean_displacement(name), reference.force(name)})
-          row.insert(row.end(), vector.begin_raw(), vector.end_raw());
-      file.write_row(row);
+    file.open(file_name, table.columns(), communicator);
+    reference.solve(end_time, [&](const double now) {
+      time = now;
+      for (unsigned int c = 0; c < names.size(); ++c)
+      {
+        displacements[c] = reference.mean_displacement(names[c]);
+        forces[c]        = reference.force(names[c]);
+      }
+      file.write_row(table.row());
     });
   }
 

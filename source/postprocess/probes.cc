@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/reduction.h>
 #include <talus/postprocess/probes.h>
 
 #include <deal.II/base/mpi.h>
@@ -100,20 +101,22 @@ namespace Talus
     std::vector<Point<dim>> points;
     for (const auto &probe : probes)
       points.push_back(probe->position);
-    const auto          found = nearest(particles, particles.initial_position, points, communicator);
-    std::vector<Column> columns{{"time", "time"}};
+    const auto found = nearest(particles, particles.initial_position, points, communicator);
+    table.add("time", "time", time);
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       Probe<dim> &probe = *probes[i];
       check_position(probe, grid, found[i].distance);
       probe.id = static_cast<types::particle_index>(found[i].id);
       if (!probe.is_particle)
-        columns.push_back({probe.name + "_distance", "length"});
+        table.add(probe.name + "_distance", "length", probe.distance);
+      probe.values.resize(n_components(fields));
+      auto value = probe.values.cbegin();
       for (const auto &field : fields)
         for (const auto &component : field.components)
-          columns.push_back({probe.name + "_" + component, field.unit});
+          table.add(probe.name + "_" + component, field.unit, *value++);
     }
-    file.open(directory + "/probes.csv", columns, communicator);
+    file.open(directory + "/probes.csv", table.columns(), communicator);
   }
 
   template <int dim>
@@ -134,43 +137,40 @@ namespace Talus
   }
 
   template <int dim>
-  std::vector<double> Probes<dim>::sample(const WorkingSet<dim> &particles)
+  void Probes<dim>::sample(const WorkingSet<dim> &particles)
   {
     std::vector<Point<dim>> points;
     for (const auto &probe : probes)
       if (!probe->is_particle)
         points.push_back(probe->position);
-    const auto   found   = nearest(particles, particles.position, points, communicator);
-    const bool   is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
-    unsigned int k       = 0;
+    const auto found = nearest(particles, particles.position, points, communicator);
+    auto       next  = found.begin();
 
     // The rank that holds a particle gives its values, the others zeros.
-    std::vector<double> row, values(n_components(fields));
+    const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
     for (const auto &probe : probes)
     {
       auto &slot = probe->slot;
       if (!probe->is_particle)
       {
-        row.push_back(is_root ? found[k].distance : 0.);
-        probe->id = static_cast<types::particle_index>(found[k].id);
-        slot      = found[k++].slot;
+        probe->distance = is_root ? next->distance : 0.;
+        probe->id       = static_cast<types::particle_index>(next->id);
+        slot            = next++->slot;
       }
       else if (slot >= particles.size() || particles.id[slot] != probe->id)
         slot = std::find(particles.id.begin(), particles.id.end(), probe->id) - particles.id.begin();
 
-      std::fill(values.begin(), values.end(), 0.);
+      std::fill(probe->values.begin(), probe->values.end(), 0.);
       if (slot < particles.size() && particles.id[slot] == probe->id)
       {
-        unsigned int c = 0;
+        double *values = probe->values.data();
         for (const auto &field : fields)
         {
-          field.evaluate(particles, slot, &values[c]);
-          c += field.components.size();
+          field.evaluate(particles, slot, values);
+          values += field.components.size();
         }
       }
-      row.insert(row.end(), values.begin(), values.end());
     }
-    return row;
   }
 
   template <int dim>
@@ -178,10 +178,16 @@ namespace Talus
   {
     if (probes.empty())
       return;
-    std::vector<double> row = sample(particles);
-    Utilities::MPI::sum(row, communicator, row);
-    row.insert(row.begin(), time);
-    file.write_row(row);
+    this->time = time;
+    sample(particles);
+    Reduction reduction;
+    for (const auto &probe : probes)
+    {
+      reduction.sum(probe->distance);
+      reduction.sum(probe->values);
+    }
+    reduction.run(communicator);
+    file.write_row(table.row());
   }
 
   template class Probe<2>;

@@ -35,7 +35,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  std::unique_ptr<Verification<dim>> Verification<dim>::make(Parameters &parameters, MPI_Comm communicator)
+  std::unique_ptr<Verification<dim>> Verification<dim>::make(Parameters &parameters, const Communicator &communicator)
   {
     using Solutions = Registry<ManufacturedSolution<dim>>;
     const std::string chosen =
@@ -48,7 +48,7 @@ namespace Talus
   }
 
   template <int dim>
-  Verification<dim>::Verification(std::unique_ptr<ManufacturedSolution<dim>> solution, MPI_Comm communicator) :
+  Verification<dim>::Verification(std::unique_ptr<ManufacturedSolution<dim>> solution, const Communicator &communicator) :
     solution(std::move(solution)), communicator(communicator)
   {
   }
@@ -106,7 +106,11 @@ namespace Talus
       add(1, particles.vector(particles.velocity, p), solution->velocity(X, time));
       add(2, stress_of(particles, p), solution->stress(X, time));
     }
-    reduce(maxima, sums, communicator);
+    Reduction reduction;
+    reduction.sum(sums);
+    for (double &value : maxima)
+      reduction.max(value);
+    reduction.run(communicator);
     std::copy(maxima.begin(), maxima.end(), largest.begin());
     std::vector<double> values(2 * n_fields);
     for (unsigned int f = 0; f < n_fields; ++f)

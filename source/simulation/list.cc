@@ -4,6 +4,7 @@
 #include <talus/materials/material.h>
 #include <talus/particles/shape.h>
 #include <talus/simulation/list.h>
+#include <talus/steppers/stepper.h>
 #include <talus/transfer/transfer.h>
 #include <talus/verification/manufactured_solution.h>
 
@@ -29,6 +30,7 @@ namespace Talus
     list<Material>(out, "material");
     list<Shape<2>>(out, "shape");
     list<Condition<2>>(out, "condition");
+    list<Stepper<2>>(out, "stepper");
     list<ManufacturedSolution<2>>(out, "solution");
   }
 } // namespace Talus

@@ -1,65 +1,128 @@
+#include <talus/core/exceptions.h>
+#include <talus/core/registry.h>
 #include <talus/particles/batch_access.h>
 #include <talus/steppers/explicit_step.h>
+#include <talus/steppers/sweep.h>
 
 namespace Talus
 {
   using namespace dealii;
 
-  StepTiming::StepTiming(Timing &timing) :
-    timing(timing), particle_to_grid(timing.add("particle to grid")), grid(timing.add("grid and conditions")),
-    grid_to_particle(timing.add("grid to particle")), stress(timing.add("stress")),
-    relocate(timing.add("relocate and survey"))
+  template <int dim>
+  Explicit<dim>::Explicit(const std::string &section) : Stepper<dim>(section)
   {
+    this->add_parameter("Courant number", courant_number, "Step size over its critical value, Eq. (37) [1].", this->prm,
+                        Patterns::Double());
+    this->add_parameter("Step size", fixed_step_size, "Fixed step size [time]; 0: by the Courant number each step.",
+                        this->prm, Patterns::Double(0));
   }
 
   template <int dim>
-  Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing)
+  void Explicit<dim>::parse_parameters(ParameterHandler &)
   {
-    auto &[grid, particles, kernel, transfer, boundary, materials, acceleration, tractions] = model;
-    {
-      Timing::Scope scope(timing.timing, timing.particle_to_grid);
-      boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);
-      grid.clear();
-      transfer.particle_to_grid(particles, kernel, acceleration, time, grid);
-      tractions.apply(particles, kernel, time, grid);
-    }
-    {
-      Timing::Scope scope(timing.timing, timing.grid);
-      grid.fields.add_copies_to_owners();
-      transfer.complete(grid);
-      grid.update_velocity(dt);
-      boundary.apply(time + dt, dt, grid);
-      grid.fields.update_copies();
-    }
+    if (!(courant_number > 0))
+      throw EntryError(this->get_section_name(), "Courant number", "it must be positive; 0.5 is a safe choice.");
+  }
 
-    // What follows concerns each particle alone: block by block, so that a block's fields stay in the cache.
-    auto ranges = material_ranges(particles, materials, dt);
-    for (auto &range : ranges)
-      range.is_plain = transfer.is_plain;
-    Surveyor<dim>          surveyor(model, ranges, time + dt, dt);
-    double                 displacement = 0;
-    constexpr unsigned int block        = dim == 2 ? 1024 : 512;
-    particles.start_relocation();
-    for (unsigned int begin = 0; begin < particles.size(); begin += block)
+  template <int dim>
+  Report Explicit<dim>::start(Model<dim> &model, Timing &timing)
+  {
+    this->timing     = &timing;
+    particle_to_grid = timing.add("particle to grid");
+    grid             = timing.add("grid and conditions");
+    grid_to_particle = timing.add("grid to particle");
+    stress           = timing.add("stress");
+    relocate         = timing.add("relocate and survey");
+    upkeep_section   = timing.add("upkeep");
+    smoothing        = timing.add("smoothing of J");
+
+    watch.emplace(model);
+    const auto ranges = material_ranges(model.particles, /* dt = */ 0.);
+    watch->start(ranges, /* time = */ 0., /* dt = */ 0.);
+    watch->look_at(0, model.particles.size());
+    return watch->finish(/* displacement = */ 0.);
+  }
+
+  template <int dim>
+  double Explicit<dim>::step_size(const Model<dim> &model, const Report &last) const
+  {
+    if (fixed_step_size > 0)
+      return fixed_step_size;
+    double nu = 0;
+    for (const auto &material : model.materials)
+      nu = std::max(nu, material->kinematic_viscosity());
+    const double h = model.grid.lattice.smallest_spacing();
+    return courant_number / (last.signal_speed / h + 2 * dim * nu / (h * h));
+  }
+
+  template <int dim>
+  Report Explicit<dim>::advance(Model<dim> &model, const Report &last, const double time, const double dt)
+  {
     {
-      const unsigned int end = std::min(begin + block, particles.size());
-      {
-        Timing::Scope scope(timing.timing, timing.grid_to_particle);
-        displacement = std::max(displacement, transfer.grid_to_particle(grid, kernel, dt, particles, begin, end));
-      }
-      {
-        Timing::Scope scope(timing.timing, timing.stress);
-        update_stress(particles, materials, ranges, begin, end);
-      }
-      {
-        Timing::Scope scope(timing.timing, timing.relocate);
-        particles.relocate(begin, end);
-        surveyor.look_at(begin, end);
-      }
+      const Timing::Scope scope(*timing, upkeep_section);
+      upkeep.run(model, last);
     }
-    Timing::Scope scope(timing.timing, timing.relocate);
-    tractions.finish(particles);
-    return surveyor.finish(displacement);
+    {
+      const Timing::Scope scope(*timing, smoothing);
+      model.smoothing.apply(model.materials, *model.kernel, dt, model.particles, model.grid);
+    }
+    move_nodes(model, time, dt);
+    return move_particles(model, time, dt);
+  }
+
+  template <int dim>
+  void Explicit<dim>::move_nodes(Model<dim> &model, const double time, const double dt)
+  {
+    {
+      const Timing::Scope scope(*timing, particle_to_grid);
+      model.boundary.mark_slip_walls(time + dt, model.particles.n_stencil_nodes, model.grid);
+      model.grid.clear();
+      model.transfer->particle_to_grid(model.particles, *model.kernel, model.acceleration, time, model.grid);
+      model.tractions.apply(model.particles, *model.kernel, time, model.grid);
+    }
+    const Timing::Scope scope(*timing, grid);
+    model.grid.fields.add_copies_to_owners();
+    model.transfer->complete(model.grid);
+    model.grid.update_velocity(dt);
+    model.boundary.apply(time + dt, dt, model.grid);
+    model.grid.fields.update_copies();
+  }
+
+  template <int dim>
+  Report Explicit<dim>::move_particles(Model<dim> &model, const double time, const double dt)
+  {
+    Particles<dim> &particles = model.particles;
+    auto            ranges    = material_ranges(particles, dt);
+    for (auto &range : ranges)
+      range.is_plain = model.transfer->is_plain;
+    watch->start(ranges, time + dt, dt);
+    particles.start_relocation();
+
+    double displacement = 0;
+    Sweep  sweep(*timing);
+    sweep.add(grid_to_particle, [&](const unsigned int begin, const unsigned int end) {
+      displacement =
+        std::max(displacement, model.transfer->grid_to_particle(model.grid, *model.kernel, dt, particles, begin, end));
+    });
+    sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
+      update_stress(particles, model.materials, ranges, begin, end);
+    });
+    sweep.add(relocate, [&](const unsigned int begin, const unsigned int end) {
+      particles.relocate(begin, end);
+      watch->look_at(begin, end);
+    });
+    sweep.run(particles.size(), /* block = */ dim == 2 ? 1024 : 512);
+
+    const Timing::Scope scope(*timing, relocate);
+    model.tractions.finish(particles);
+    return watch->finish(displacement);
+  }
+
+  template <int dim>
+  std::string Explicit<dim>::summary() const
+  {
+    return "  " + std::to_string(upkeep.n_migrations) + " migrations between ranks, " + std::to_string(upkeep.n_sorts) +
+           " sorts\n";
   }
 
   namespace
@@ -126,15 +189,20 @@ namespace Talus
   void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
                      const double dt)
   {
-    update_stress(particles, materials, material_ranges(particles, materials, dt), 0, particles.size());
+    update_stress(particles, materials, material_ranges(particles, dt), 0, particles.size());
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template Survey<dim> explicit_step(Model<dim> &, const double, const double, const StepTiming &);                    \
-  template void        update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &,                 \
-                                     const std::vector<MaterialRange> &, const unsigned int, const unsigned int);      \
-  template void        update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &, const double);
+  template class Explicit<dim>;                                                                                        \
+  template void update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &,                        \
+                              const std::vector<MaterialRange> &, const unsigned int, const unsigned int);             \
+  template void update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &, const double);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE
+
+  namespace
+  {
+    const RegisterDimensions<Stepper, Explicit> explicit_steps("explicit", "one step after the other, as Fig. 1 says");
+  }
 } // namespace Talus

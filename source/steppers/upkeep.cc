@@ -1,24 +1,22 @@
 #include <talus/steppers/upkeep.h>
 
-#include <talus/core/traffic.h>
-
 namespace Talus
 {
   using namespace dealii;
 
   template <int dim>
-  void Upkeep<dim>::run(Model<dim> &model, const Survey<dim> &now)
+  void Upkeep<dim>::run(Model<dim> &model, const Report &last)
   {
-    since_sort += now.displacement;
+    since_sort += last.displacement;
     staleness += since_sort;
-    since_activation += now.displacement;
+    since_activation += last.displacement;
 
     bool has_new_nodes = false;
-    if (now.needs_synchronise)
+    if (last.needs_migration)
     {
       model.particles.migrate();
       ++n_migrations;
-      const Traffic::Wait wait;
+      const Communicator::Wait wait(model.grid.communicator);
       has_new_nodes = Utilities::MPI::logical_or(model.particles.brings_new_nodes, model.grid.communicator);
     }
     // Each spacing of drift makes a step some 3 ns per particle longer, and a sort takes 22 (measured in 2D): it is due
@@ -31,7 +29,7 @@ namespace Talus
     }
     // Active nodes reach one spacing beyond the stencils, as far as the particle's rank knows them: who comes from
     // another rank may bring new ones.
-    if (since_activation > 1 || has_new_nodes || now.needs_activation)
+    if (since_activation > 1 || has_new_nodes || last.needs_activation)
     {
       model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
       model.particles.update_open_places();

@@ -139,7 +139,8 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  VolumeSmoothing<dim>::VolumeSmoothing() : treatment(Registry<Treatment<dim>>::get().make("WLS separable", "/Kernel"))
+  VolumeSmoothing<dim>::VolumeSmoothing(Parameters &parameters) :
+    treatment(Registry<Treatment<dim>>::get().make("WLS separable", parameters, "/Kernel"))
   {
   }
 
@@ -158,7 +159,7 @@ namespace Talus
   {
     for (unsigned int m = 0; m < materials.size(); ++m)
       if (materials[m]->smoothing_speed() > 0)
-        smooth(*materials[m], material_range(particles, *materials[m], m, 0.), kernel, /* alpha = */ 0., particles,
+        smooth(*materials[m], material_range(particles, m, 0.), kernel, /* alpha = */ 0., particles,
                grid);
   }
 
@@ -171,7 +172,7 @@ namespace Talus
       const double speed = materials[m]->smoothing_speed();
       if (!(speed > 0))
         continue;
-      const auto range = material_range(particles, *materials[m], m, dt);
+      const auto range = material_range(particles, m, dt);
       smooth(*materials[m], range, kernel, std::min(1., speed * dt / grid.lattice.smallest_spacing()), particles, grid);
       // A material that smooths has no memory: this gives the stress of the new volume, whatever the step.
       materials[m]->update(range);

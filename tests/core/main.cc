@@ -10,6 +10,8 @@ void printing();
 void names();
 void expressions();
 void reduction();
+void traffic();
+void table();
 void registry();
 void simd();
 void batches();
@@ -27,6 +29,8 @@ int main(int argc, char **argv)
                     {"parameters: names", names},
                     {"expressions", expressions},
                     {"reduction", reduction},
+                    {"traffic", traffic},
+                    {"table", table},
                     {"registry", registry},
                     {"simd", simd},
                     {"batches", batches}});

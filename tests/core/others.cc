@@ -50,25 +50,78 @@ void expressions()
 /** Maxima and sums in one message; also for none of a kind and for infinities. */
 void reduction()
 {
-  const double rank          = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
-               n             = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  std::vector<double> maxima = {rank, -rank, -1e300}, sums = {1., rank, 0.25};
-  reduce(maxima, sums, MPI_COMM_WORLD);
-  check_true("maxima", maxima == std::vector<double>{n - 1, 0., -1e300});
-  check_true("sums", sums == std::vector<double>{n, n * (n - 1) / 2, 0.25 * n});
-  std::vector<double> none, one = {2.};
-  reduce(none, one, MPI_COMM_WORLD);
-  check_true("sums alone", none.empty() && one[0] == 2 * n);
-  reduce(one, none, MPI_COMM_WORLD);
-  check_true("maxima alone", none.empty() && one[0] == 2 * n);
+  const double rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+               n       = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  double       highest = rank, lowest = -rank, far = -1e300, one = 1.;
+  bool         is_last = rank + 1 == n, never = false;
+  Tensor<1, 2> vector;
+  vector[0]                   = rank;
+  vector[1]                   = 0.25;
+  std::vector<double> numbers = {2., -rank};
+
+  const Communicator communicator(MPI_COMM_WORLD);
+  Reduction          all;
+  all.sum(one);
+  all.max(highest);
+  all.any(is_last);
+  all.sum(vector);
+  all.max(lowest);
+  all.any(never);
+  all.max(far);
+  all.sum(numbers);
+  all.run(communicator);
+  check_true("maxima", highest == n - 1 && lowest == 0 && far == -1e300);
+  check_true("flags", is_last && !never);
+  check_true("sums", one == n && numbers == std::vector<double>{2 * n, -n * (n - 1) / 2});
+  check_true("of vectors", vector[0] == n * (n - 1) / 2 && vector[1] == 0.25 * n);
+  check_true("one message", communicator.traffic().messages == (n > 1 ? 1 : 0));
+
+  one = 2.;
+  Reduction sums, maxima;
+  sums.sum(one);
+  sums.run(communicator);
+  check_true("sums alone", one == 2 * n);
+  maxima.max(one);
+  maxima.run(communicator);
+  check_true("maxima alone", one == 2 * n);
+}
+
+/** Copies of a communicator count together, others apart. */
+void traffic()
+{
+  const Communicator communicator(MPI_COMM_WORLD), copy = communicator, other(MPI_COMM_WORLD);
+  communicator.sent(100);
+  copy.sent(20);
+  check_true("messages", communicator.traffic().messages == 2 && communicator.traffic().bytes == 120);
+  check_true("of one run alone", other.traffic().messages == 0);
+  check("stands for MPI_Comm", Utilities::MPI::n_mpi_processes(copy) - sum(1.), 0.5);
+}
+
+/** Numbers are read when a row is asked for. */
+void table()
+{
+  double       number = 1;
+  Tensor<1, 2> vector;
+  Talus::Table table;
+  table.add("number", "length", number);
+  table.add("vector", "force", vector);
+  table.add("square", "area", [&number] { return number * number; });
+  number    = 3;
+  vector[1] = -2;
+  check_true("row", table.row() == std::vector<double>{3, 0, -2, 9});
+  std::string names;
+  for (const auto &column : table.columns())
+    names += column.name + " [" + column.unit + "], ";
+  check_true("columns", names == "number [length], vector x [force], vector y [force], square [area], ");
 }
 
 void registry()
 {
-  auto &kernels = Registry<Kernel<2>>::get();
+  auto  parameters = Parameters::from_text("");
+  auto &kernels    = Registry<Kernel<2>>::get();
   check_error<InputError>("unknown", {"Nothing is registered as 'quartic'"},
-                          [&] { kernels.make("quartic", "/Kernel"); });
-  check_true("selection", kernels.selection() == "cubic B-spline|linear|quadratic B-spline|uGIMP");
+                          [&] { kernels.make("quartic", parameters, "/Kernel"); });
+  check_true("selection", kernels.selection() == "CPDI|cubic B-spline|linear|quadratic B-spline|uGIMP");
   bool is_rejected = false;
   try
   {

@@ -40,17 +40,18 @@ namespace
     return k % Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
   }
 
-  std::vector<std::unique_ptr<Material>> elastic()
+  std::vector<std::unique_ptr<Material>> elastic(Parameters &parameters)
   {
     std::vector<std::unique_ptr<Material>> materials;
-    materials.push_back(Registry<Material>::get().make("linear elastic", "/Materials/m")); // E = 1e6
+    materials.push_back(Registry<Material>::get().make("linear elastic", parameters, "/Materials/m")); // E = 1e6
     return materials;
   }
 
   void check_plane()
   {
-    const auto    materials = elastic();
-    const auto    transfer  = Registry<Transfer<2>>::get().make("APIC", "/Transfer");
+    auto          parameters = Parameters::from_text("");
+    const auto    materials  = elastic(parameters);
+    const auto    transfer   = Registry<Transfer<2>>::get().make("APIC", parameters, "/Transfer");
     WorkingSet<2> set;
     transfer->add_fields(set);
     const unsigned int B = set.add_field("affine moment", 4);
@@ -63,6 +64,7 @@ namespace
         set.component(B, 1)[set.size() - 1] = 0.5; // B_xy: -0.5 m
         set.component(B, 2)[set.size() - 1] = 2.;  // B_yx: +2 m
       }
+    set.add_states({});
     set.material_begin = {0, set.size()};
 
     const Totals<2> sum = totals(set, *transfer, materials, MPI_COMM_WORLD);
@@ -75,14 +77,16 @@ namespace
     check("angular momentum", sum.angular_momentum[0] - Expected<2>::angular_momentum, 1e-13);
     check("angular momentum with B", sum.total_angular_momentum[0] - (Expected<2>::angular_momentum + 15), 1e-13);
 
-    const auto columns = Totals<2>::columns();
-    const auto values  = sum.values();
-    check_true("a value for each column", columns.size() == values.size());
-    check_true("columns and values agree", columns[5].name == "momentum_y" && values[5] == sum.momentum[1] &&
+    Talus::Table table;
+    sum.add_to(table);
+    const auto &columns = table.columns();
+    const auto  row     = table.row();
+    check_true("a value for each column", columns.size() == row.size());
+    check_true("columns and values agree", columns[5].name == "momentum_y" && row[5] == sum.momentum[1] &&
                                              columns.back().name == "total angular momentum_z" &&
-                                             values.back() == sum.total_angular_momentum[0]);
+                                             row.back() == sum.total_angular_momentum[0]);
 
-    const auto tpic = Registry<Transfer<2>>::get().make("TPIC", "/Transfer");
+    const auto tpic = Registry<Transfer<2>>::get().make("TPIC", parameters, "/Transfer");
     check("a transfer without B adds nothing",
           totals(set, *tpic, materials, MPI_COMM_WORLD).total_angular_momentum[0] - Expected<2>::angular_momentum,
           1e-13);
@@ -91,8 +95,9 @@ namespace
   /** A rigid rotation: m (x cross (w cross x)), and with B = W d: 2 m d w more. */
   void check_space()
   {
-    const auto    materials = elastic();
-    const auto    transfer  = Registry<Transfer<3>>::get().make("APIC", "/Transfer");
+    auto          parameters = Parameters::from_text("");
+    const auto    materials  = elastic(parameters);
+    const auto    transfer   = Registry<Transfer<3>>::get().make("APIC", parameters, "/Transfer");
     WorkingSet<3> set;
     transfer->add_fields(set);
     const unsigned int B = set.add_field("affine moment", 9);
@@ -114,6 +119,7 @@ namespace
       for (unsigned int c = 0; c < 9; ++c)
         set.component(B, c)[set.size() - 1] = d * W[c];
     }
+    set.add_states({});
     set.material_begin  = {0, set.size()};
     const Totals<3> sum = totals(set, *transfer, materials, MPI_COMM_WORLD);
     for (unsigned int i = 0; i < 3; ++i)

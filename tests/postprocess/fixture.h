@@ -1,8 +1,8 @@
 #pragma once
 
-#include <talus/particles/particles.h>
 #include <talus/postprocess/output.h>
 #include <talus/postprocess/probes.h>
+#include <talus/steppers/model.h>
 
 #include "check.h"
 
@@ -75,20 +75,13 @@ namespace Test
   {
   public:
     explicit Fixture(const std::string &output_entries = "") :
-      parameters(Parameters::from_text(text(output_entries))), grid("/Grid", MPI_COMM_WORLD), probes(parameters)
+      parameters(Parameters::from_text(text(output_entries))), model(parameters, MPI_COMM_WORLD), grid(model.grid),
+      particles(model.particles), probes(parameters)
     {
-      materials.push_back(Registry<Material>::get().make("linear elastic", "/Materials/m"));
-      bodies.push_back(std::make_unique<Body<dim>>(parameters, "b", std::vector<std::string>{"m"}));
       parameters.parse();
-      bodies[0]->shape->create(grid.lattice.h);
     }
 
-    void create()
-    {
-      grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, Reach{2, 0});
-      particles.create(grid, bodies, materials);
-      particles.set_reach(grid, {2, 0});
-    }
+    void create() { model.create(); }
 
     static std::string text(const std::string &output_entries)
     {
@@ -101,17 +94,17 @@ namespace Test
         number_lists[2] += comma + (d == 0 ? "4" : "1");
       }
       return "subsection Grid\n set Lower corner = " + number_lists[0] + "\n set Upper corner = " + number_lists[1] +
-             "\n set Spacing = 0.5\nend\nsubsection Bodies\n subsection b\n  set Lower corner = " + number_lists[0] +
-             "\n  set Upper corner = " + number_lists[2] + "\n end\nend\nsubsection Output\n" + output_entries +
-             "\nend\n";
+             "\n set Spacing = 0.5\nend\nsubsection Kernel\n set Type = linear\nend\n" +
+             "subsection Materials\n set Names = m\nend\nsubsection Bodies\n set Names = b\n subsection b\n  set Lower corner = " +
+             number_lists[0] + "\n  set Upper corner = " + number_lists[2] + "\n end\nend\nsubsection Output\n" +
+             output_entries + "\nend\n";
     }
 
-    Parameters                              parameters;
-    Grid<dim>                               grid;
-    std::vector<std::unique_ptr<Material>>  materials;
-    std::vector<std::unique_ptr<Body<dim>>> bodies;
-    Particles<dim>                          particles;
-    Output<dim>                             output;
-    Probes<dim>                             probes;
+    Parameters      parameters;
+    Model<dim>      model;
+    Grid<dim>      &grid;
+    Particles<dim> &particles;
+    Output<dim>     output;
+    Probes<dim>     probes;
   };
 } // namespace Test

@@ -22,7 +22,7 @@ namespace
     for (unsigned int n = 0; n < 10; ++n)
     {
       setup.step(dt, n * dt);
-      auto ranges = material_ranges(setup.particles, setup.materials, dt);
+      auto ranges = material_ranges(setup.particles, dt);
       for (auto &range : ranges)
         range.is_plain = is_plain;
       update_stress(setup.particles, setup.materials, ranges, 0, setup.particles.size());

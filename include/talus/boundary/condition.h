@@ -1,6 +1,8 @@
 #pragma once
 
 #include <talus/boundary/damping.h>
+#include <talus/core/reduction.h>
+#include <talus/core/table.h>
 
 namespace Talus
 {
@@ -37,14 +39,24 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    /** Force of the body on the condition, sum m (v_trial - v) / dt, of this rank's nodes in the last step [force]. */
+    /** Registers what it knows of the last step. */
+    void add_to(Reduction &reduction)
+    {
+      reduction.sum(reaction);
+      reduction.sum(nodal_force);
+      reduction.sum(work);
+    }
+
+    // Of the last step: at this rank's nodes, then summed over all ranks.
+
+    /** Force of the body on the condition, sum m (v_trial - v) / dt [force]. */
     dealii::Tensor<1, dim> reaction;
     /**
-     * Forces of stress, body force and tractions on what it was the first to set in the last step, of this rank's
-     * nodes [force]: the reaction but for what the nodes' mass accelerates.
+     * Forces of stress, body force and tractions on what it was the first to set [force]: the reaction but for what
+     * the nodes' mass accelerates.
      */
     dealii::Tensor<1, dim> nodal_force;
-    /** Work the condition did on the body in the last step [energy]. */
+    /** Work the condition did on the body [energy]. */
     double work = 0;
 
   protected:
@@ -123,6 +135,15 @@ namespace Talus
      * nodes per axis. Collective; costs nothing unless a condition begins or ends.
      */
     void mark_slip_walls(const double time, const unsigned int n, Grid<dim> &grid);
+
+    void add_to(Reduction &reduction)
+    {
+      for (auto &condition : conditions)
+        condition->add_to(reduction);
+      reduction.sum(damping.work);
+    }
+
+    void add_to(Table &table) const;
 
     std::vector<std::string>                     names;
     std::vector<std::unique_ptr<Condition<dim>>> conditions;

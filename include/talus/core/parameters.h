@@ -91,6 +91,6 @@ namespace Talus
   std::unique_ptr<Interface> Parameters::make(const std::string &section, const std::string &entry,
                                               const std::string &default_value, const std::string &help)
   {
-    return Registry<Interface>::get().make(choose<Interface>(section, entry, default_value, help), section);
+    return Registry<Interface>::get().make(choose<Interface>(section, entry, default_value, help), *this, section);
   }
 } // namespace Talus

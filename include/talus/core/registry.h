@@ -6,18 +6,22 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 namespace Talus
 {
+  class Parameters;
+
   /**
    * All objects of one kind (kernels, transfers, materials, ...) by name. A
-   * factory takes the section of the parameter file that the new object reads.
+   * factory takes the section of the parameter file that the new object reads,
+   * and the parameters, of which it asks what its own parts are.
    */
   template <class Interface>
   class Registry
   {
   public:
-    using Factory = std::function<std::unique_ptr<Interface>(const std::string &section)>;
+    using Factory = std::function<std::unique_ptr<Interface>(Parameters &parameters, const std::string &section)>;
 
     struct Entry
     {
@@ -38,11 +42,11 @@ namespace Talus
       AssertThrow(is_new, dealii::ExcMessage("'" + name + "' is registered twice."));
     }
 
-    std::unique_ptr<Interface> make(const std::string &name, const std::string &section) const
+    std::unique_ptr<Interface> make(const std::string &name, Parameters &parameters, const std::string &section) const
     {
       const auto entry = entries.find(name);
       AssertThrow(entry != entries.end(), InputError("Nothing is registered as '" + name + "'."));
-      return entry->second.make(section);
+      return entry->second.make(parameters, section);
     }
 
     const std::map<std::string, Entry> &all() const { return entries; }
@@ -60,14 +64,22 @@ namespace Talus
     std::map<std::string, Entry> entries;
   };
 
-  /** Registers `Object` for a kind that does not depend on the dimension. */
+  /**
+   * Registers `Object` for a kind that does not depend on the dimension. Its constructor takes (parameters, section),
+   * or the section alone where it has nothing to choose.
+   */
   template <class Interface, class Object>
   struct Register
   {
     Register(const std::string &name, const std::string &help)
     {
-      Registry<Interface>::get().add(name, help,
-                                     [](const std::string &section) { return std::make_unique<Object>(section); });
+      Registry<Interface>::get().add(
+        name, help, [](Parameters &parameters, const std::string &section) -> std::unique_ptr<Interface> {
+          if constexpr (std::is_constructible<Object, Parameters &, const std::string &>::value)
+            return std::make_unique<Object>(parameters, section);
+          else
+            return std::make_unique<Object>(section);
+        });
     }
   };
 

@@ -23,7 +23,7 @@ namespace Talus
   public:
     using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
 
-    Grid(const std::string &section, MPI_Comm communicator);
+    Grid(const std::string &section, const Communicator &communicator);
 
     /**
      * Builds triangulation, nodes, lattice and fields for what kernels and transfers ask for. `weight` estimates
@@ -62,6 +62,15 @@ namespace Talus
 
     dealii::Point<dim> node_position(const unsigned int node) const;
 
+    /** Whether a point lies in the domain. */
+    bool contains(const dealii::Tensor<1, dim> &x) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!lattice.is_inside(lattice.coordinate(x[d], d), d))
+          return false;
+      return true;
+    }
+
     /** Owned nodes on the faces of the box with number `boundary_id` (2 d: lower, 2 d + 1: upper face of axis d). */
     std::vector<unsigned int> nodes_on_boundary(const unsigned int boundary_id) const;
 
@@ -70,7 +79,7 @@ namespace Talus
 
     const CellIterator &owned_cell(const unsigned int active_cell_index) const { return cells[active_cell_index]; }
 
-    MPI_Comm                                          communicator;
+    Communicator                                      communicator;
     dealii::parallel::distributed::Triangulation<dim> triangulation;
     dealii::DoFHandler<dim>                           dof_handler;
     Lattice<dim>                                      lattice;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/communicator.h>
+
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/mpi.h>
 
@@ -21,7 +23,7 @@ namespace Talus
      * `relevant` are the nodes this rank reads, owned or not; `places` has one of the `n_places` places for each node
      * in the order of their numbers. Collective.
      */
-    void reinit(const dealii::IndexSet &owned, const dealii::IndexSet &relevant, MPI_Comm communicator,
+    void reinit(const dealii::IndexSet &owned, const dealii::IndexSet &relevant, const Communicator &communicator,
                 const std::vector<unsigned int> &places, const std::size_t n_places);
 
     unsigned int n_owned() const { return n_owned_nodes; }
@@ -38,7 +40,7 @@ namespace Talus
 
     std::vector<Neighbour> copied_by;   // owned nodes of which the neighbour has copies
     std::vector<Neighbour> copied_from; // copies of nodes that the neighbour owns
-    MPI_Comm               communicator = MPI_COMM_NULL;
+    Communicator           communicator;
 
   private:
     unsigned int              n_owned_nodes = 0;

@@ -4,19 +4,16 @@
 #include <talus/particles/working_set.h>
 
 #include <algorithm>
-#include <memory>
 
 namespace Talus
 {
   /** What material `m` sees of its particles. The arrays are valid until particles are sorted or migrate. */
   template <int dim>
-  MaterialRange material_range(WorkingSet<dim> &particles, const Material &material, const unsigned int m,
-                               const double dt);
+  MaterialRange material_range(WorkingSet<dim> &particles, const unsigned int m, const double dt);
 
   /** The same for all materials. */
   template <int dim>
-  std::vector<MaterialRange> material_ranges(WorkingSet<dim>                              &particles,
-                                             const std::vector<std::unique_ptr<Material>> &materials, const double dt);
+  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt);
 
   /** The particles of a range that lie in [begin, end). */
   inline MaterialRange intersection(MaterialRange range, const unsigned int begin, const unsigned int end)

@@ -77,7 +77,7 @@ namespace Talus
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
     bool         needs_activation  = false; // set by relocate(): a corner has come to nodes that are not active
     bool         brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
-    unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
+    unsigned int outside           = none;  // set by relocate(): of the particles outside the grid that of lowest number
 
     std::uint64_t n_global    = 0;
     std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places

@@ -46,6 +46,9 @@ namespace Talus
 
     static constexpr const char *half_edges_name = "half edges";
 
+    /** Adds the next material's fields, one number each. */
+    void add_states(const std::vector<std::string> &names);
+
     unsigned int size() const { return id.size(); }
     void         resize(const unsigned int n_particles);
 
@@ -115,6 +118,14 @@ namespace Talus
 
     /** Particles material_begin[m] .. material_begin[m + 1] - 1 are of material m. */
     std::vector<unsigned int> material_begin;
+
+    unsigned int material_of(const unsigned int p) const
+    {
+      return std::upper_bound(material_begin.begin(), material_begin.end(), p) - material_begin.begin() - 1;
+    }
+
+    /** Of each material, the fields that hold its state. */
+    std::vector<std::vector<unsigned int>> state_fields;
 
   private:
     std::vector<dealii::AlignedVector<double>> columns;

@@ -45,9 +45,9 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
     void add_fields(WorkingSet<dim> &particles);
 
-    /** Adds a step that ended at `time` to the averages, with the global reactions of the conditions. */
-    void accumulate(const double time, const double dt, const double end_time,
-                    const std::vector<dealii::Tensor<1, dim>> &reactions, WorkingSet<dim> &particles);
+    /** Adds a step that ended at `time` to the averages. */
+    void accumulate(const double time, const double dt, const double end_time, const Boundary<dim> &boundary,
+                    WorkingSet<dim> &particles);
 
     /** Solves the reference and fills the fields. Collective. */
     void finish(const double end_time, const std::vector<std::unique_ptr<Material>> &materials,

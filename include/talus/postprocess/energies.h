@@ -1,7 +1,8 @@
 #pragma once
 
+#include <talus/core/reduction.h>
+#include <talus/core/table.h>
 #include <talus/materials/material.h>
-#include <talus/postprocess/statistics.h>
 #include <talus/transfer/transfer.h>
 
 namespace Talus
@@ -24,9 +25,8 @@ namespace Talus
     /** The same with what the affine field of each particle holds: plus sum m eps_ijk B_kj. */
     Rotation total_angular_momentum;
 
-    /** The columns of a table of totals, and the values for a row of it. */
-    static std::vector<Column> columns();
-    std::vector<double>        values() const;
+    void add_to(Reduction &reduction);
+    void add_to(Table &table) const;
   };
 
   /**
@@ -36,5 +36,5 @@ namespace Talus
    */
   template <int dim>
   Totals<dim> totals(WorkingSet<dim> &particles, const Transfer<dim> &transfer,
-                     const std::vector<std::unique_ptr<Material>> &materials, MPI_Comm communicator);
+                     const std::vector<std::unique_ptr<Material>> &materials, const Communicator &communicator);
 } // namespace Talus

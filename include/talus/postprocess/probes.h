@@ -23,6 +23,9 @@ namespace Talus
     dealii::types::particle_index id   = 0; // of the tracked particle
     unsigned int                  slot = 0; // where it was last found on this rank
 
+    double              distance = 0; // of the particle from a point [length]
+    std::vector<double> values;       // of the fields
+
   private:
     std::string         kind = "point";
     std::vector<double> coordinates;
@@ -57,13 +60,15 @@ namespace Talus
     bool is_empty() const { return probes.empty(); }
 
   private:
-    void                check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const;
-    std::vector<double> sample(const WorkingSet<dim> &particles);
+    void check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const;
+    void sample(const WorkingSet<dim> &particles);
 
     std::vector<std::unique_ptr<Probe<dim>>> probes;
     std::vector<std::string>                 field_names{"position", "velocity", "stress"};
     std::vector<ParticleField<dim>>          fields;
+    double                                   time = 0;
+    Table                                    table;
     CsvFile                                  file;
-    MPI_Comm                                 communicator = MPI_COMM_NULL;
+    Communicator                             communicator;
   };
 } // namespace Talus

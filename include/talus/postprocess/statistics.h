@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/table.h>
+
 #include <mpi.h>
 
 #include <fstream>
@@ -8,14 +10,8 @@
 
 namespace Talus
 {
-  /** Name and unit of a column: "kinetic energy", "energy". */
-  struct Column
-  {
-    std::string name, unit;
-  };
-
   /**
-   * A table to which a run appends rows: first line `time [time],step [1],...`,
+   * The file of a table to which a run appends rows: first line `time [time],step [1],...`,
    * then numbers with 17 significant digits, each row complete on disk before the
    * run goes on. Rank 0 writes, the others only check. Throws RunError when the
    * file cannot be written or a number is not finite. Test: tests/postprocess.

@@ -25,7 +25,7 @@ namespace Talus
   {
   public:
     /** The one that the file chooses, or none. */
-    static std::unique_ptr<Verification> make(Parameters &parameters, MPI_Comm communicator);
+    static std::unique_ptr<Verification> make(Parameters &parameters, const Communicator &communicator);
 
     /**
      * Sets velocities and their gradients at t = 0, and the body force, which must not be set otherwise. Throws
@@ -48,12 +48,12 @@ namespace Talus
     void write(const std::string &file_name, std::ostream &table) const;
 
   private:
-    Verification(std::unique_ptr<ManufacturedSolution<dim>> solution, MPI_Comm communicator);
+    Verification(std::unique_ptr<ManufacturedSolution<dim>> solution, const Communicator &communicator);
 
     static constexpr unsigned int n_fields = 3; // u, v, stress
 
     std::unique_ptr<ManufacturedSolution<dim>> solution;
-    MPI_Comm                                   communicator;
+    Communicator                               communicator;
     std::array<double, n_fields>               largest{}; // magnitude of the exact fields at a particle
     std::vector<std::vector<double>>           rows;      // time, step, errors
   };

@@ -1,22 +1,43 @@
 #pragma once
 
-#include <talus/core/timing.h>
-#include <talus/steppers/survey.h>
+#include <talus/steppers/stepper.h>
+#include <talus/steppers/upkeep.h>
+#include <talus/steppers/watch.h>
+
+#include <optional>
 
 namespace Talus
 {
-  /** The sections of a step in the timing table. */
-  struct StepTiming
-  {
-    explicit StepTiming(Timing &timing);
-
-    Timing            &timing;
-    const unsigned int particle_to_grid, grid, grid_to_particle, stress, relocate;
-  };
-
-  /** One explicit step in the order of Fig. 1, stress last; returns what the next one needs to know. Collective. */
+  /**
+   * Explicit time integration in the order of Fig. 1, stress last. The step is the Courant number times
+   * @f[ \Delta t = \left(\frac{\max (c_p + |v_p|)}{h} + \frac{2 \dim \nu}{h^2}\right)^{-1} , @f]
+   * Eqs. (35), (37), together with the explicit limit of viscous stress.
+   */
   template <int dim>
-  Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing);
+  class Explicit : public Stepper<dim>
+  {
+  public:
+    explicit Explicit(const std::string &section);
+
+    void parse_parameters(dealii::ParameterHandler &prm) override;
+
+    Report      start(Model<dim> &model, Timing &timing) override;
+    double      step_size(const Model<dim> &model, const Report &last) const override;
+    Report      advance(Model<dim> &model, const Report &last, const double time, const double dt) override;
+    std::string summary() const override;
+
+  private:
+    void   move_nodes(Model<dim> &model, const double time, const double dt);
+    Report move_particles(Model<dim> &model, const double time, const double dt);
+
+    double courant_number = 0.5, fixed_step_size = 0;
+
+    Timing      *timing = nullptr;
+    unsigned int particle_to_grid, grid, grid_to_particle, stress, relocate, upkeep_section, smoothing; // of `timing`
+
+    Upkeep<dim>               upkeep;
+    std::optional<Watch<dim>> watch;
+  };
 
   /** Eqs. (27)-(30) of particles begin .. end - 1: deformation gradient, volume, stress and state from grad v. */
   template <int dim>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <talus/steppers/survey.h>
+#include <talus/steppers/model.h>
+#include <talus/steppers/report.h>
 
 namespace Talus
 {
@@ -13,8 +14,8 @@ namespace Talus
   class Upkeep
   {
   public:
-    /** Does what is due before the next step; `now` is what the last step has left. Collective. */
-    void run(Model<dim> &model, const Survey<dim> &now);
+    /** Does what is due before the next step, of what the last one reports. Collective. */
+    void run(Model<dim> &model, const Report &last);
 
     unsigned int n_migrations = 0, n_sorts = 0;
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <talus/core/function.h>
+#include <talus/core/reduction.h>
+#include <talus/core/table.h>
 #include <talus/kernels/kernel.h>
 #include <talus/particles/particles.h>
 
@@ -45,8 +47,9 @@ namespace Talus
     /** Sets the work once the particles have moved. */
     void finish(const Particles<dim> &particles);
 
-    dealii::Tensor<1, dim> force;    // on this rank's particles in the last step [force]
-    double                 work = 0; // on them in the last step [energy]
+    // Of the last step: on this rank's particles, then summed over all ranks.
+    dealii::Tensor<1, dim> force;    // [force]
+    double                 work = 0; // [energy]
 
   private:
     /** What a layer below a point of the surface knows. */
@@ -100,6 +103,21 @@ namespace Talus
     {
       for (auto &load : loads)
         load->finish(particles);
+    }
+
+    void add_to(Reduction &reduction)
+    {
+      for (auto &load : loads)
+      {
+        reduction.sum(load->force);
+        reduction.sum(load->work);
+      }
+    }
+
+    void add_to(Table &table) const
+    {
+      for (unsigned int l = 0; l < loads.size(); ++l)
+        table.add("traction " + names[l], "force", loads[l]->force);
     }
 
     std::vector<std::string>                    names;

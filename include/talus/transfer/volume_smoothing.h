@@ -21,7 +21,7 @@ namespace Talus
   class VolumeSmoothing
   {
   public:
-    VolumeSmoothing();
+    explicit VolumeSmoothing(Parameters &parameters);
 
     /** Adds g to the particles if a material smooths. Before the first particle exists. */
     void add_fields(const std::vector<std::unique_ptr<Material>> &materials, WorkingSet<dim> &particles);

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <talus/steppers/model.h>
+#include <talus/steppers/report.h>
+
+#include <functional>
+
+namespace Talus
+{
+  /**
+   * Watches the energy: what exceeds twice what was there or was put in can only
+   * come from an instability. The kinetic energy is looked at after each step. The
+   * elastic energy, which costs a pass over all particles, joins it every
+   * `interval` steps and at the end: motion at a free edge that the step size does
+   * not quite resolve fills the stress and leaves the velocity small. Runs that
+   * are sound stay below 1.03 times what is available, those whose kernels create
+   * energy (APIC with Steffen's) below 1.7.
+   */
+  template <int dim>
+  class EnergyWatch
+  {
+  public:
+    static constexpr unsigned int interval = 100;
+
+    /** `strain_energy` is that of the initial stress. */
+    void start(const Report &first, const double strain_energy);
+
+    /** Adds the work of the step. Throws RunError, which names the fastest particle. Collective. */
+    void check(Model<dim> &model, const Report &report, const Moment &moment);
+
+    /** The same of kinetic and elastic energy; names the particle that holds most of it. Collective. */
+    void check_total(Model<dim> &model, const Report &report, const double strain_energy, const Moment &moment) const;
+
+    /** Kinetic and strain energy beyond what was there or was put in; negative is what the scheme has lost [energy]. */
+    double residual(const double kinetic_energy, const double strain_energy) const
+    {
+      return kinetic_energy + strain_energy + damping_energy -
+             (initial_energy + body_force_work + condition_work + traction_work);
+    }
+
+    /** What was put in and taken out. */
+    void add_to(Table &table) const
+    {
+      table.add("body force work", "energy", body_force_work);
+      table.add("condition work", "energy", condition_work);
+      table.add("traction work", "energy", traction_work);
+      table.add("damping energy", "energy", damping_energy);
+    }
+
+  private:
+    /** Throws when `energy`, called `name`, is too large; then asks `culprit` for the particle. */
+    void compare(const std::string &name, const double energy, const Moment &moment,
+                 const std::function<std::string()> &culprit) const;
+
+    double body_force_work = 0; // [energy]
+    double condition_work  = 0; // [energy]
+    double traction_work   = 0; // [energy]
+    double damping_energy  = 0; // taken by local damping [energy]
+    double initial_energy = 0, floor = 0;
+  };
+} // namespace Talus

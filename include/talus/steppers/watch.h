@@ -1,0 +1,69 @@
+#pragma once
+
+#include <talus/steppers/model.h>
+#include <talus/steppers/report.h>
+
+namespace Talus
+{
+  /**
+   * Looks at the particles after each step, one block after the other: how fast signals are, which the next step size
+   * hangs on, the energy of the motion, and whether a particle has broken a limit of validity: it left the grid, a
+   * value is not finite, J <= 0 or J > 10, or |grad v| dt > 0.5. The particle that breaks one is noted when it is
+   * found, so that nothing is looked for again to be reported. Test: tests/steppers.
+   */
+  template <int dim>
+  class Watch
+  {
+  public:
+    explicit Watch(Model<dim> &model) : model(model) {}
+
+    /** Begins with the state at `time`, after a step of size `dt`; `ranges` must stay until finish(). */
+    void start(const std::vector<MaterialRange> &ranges, const double time, const double dt);
+
+    /** Looks at the particles begin .. end - 1, after their relocate(). */
+    void look_at(const unsigned int begin, const unsigned int end);
+
+    /** What has been seen, of all ranks, as the parts of the model know their numbers then. Collective. */
+    Report finish(const double displacement);
+
+  private:
+    using Number = Simd<native_width>;
+
+    /** What a particle has to keep to. */
+    enum class Limit
+    {
+      finite,
+      volume_ratio,
+      increment,
+      grid
+    };
+
+    template <class Batch>
+    void look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio);
+
+    /** Notes that particle p broke a limit, if no particle of lower number has broken one. */
+    void note(const unsigned int p, const Limit limit);
+
+    /** Says which particle of all ranks broke which limit where, and what to do. Collective. */
+    void        describe_failure(Report &report) const;
+    std::string describe(const unsigned int p, const Limit limit) const;
+
+    Model<dim>                       &model;
+    const std::vector<MaterialRange> *ranges = nullptr;
+    double                            time = 0, dt = 0;
+
+    std::array<const double *, dim>                       x, v; // x: the place of the body force
+    std::array<const double *, dim * dim>                 F, grad_v;
+    std::array<const double *, WorkingSet<dim>::n_stress> stress;
+    const double                                         *mass;
+
+    dealii::Tensor<1, dim>         b; // body force per mass, where it is uniform
+    std::vector<double>            speeds;
+    Number                         signal_speed, total_mass, kinetic_energy;
+    dealii::Tensor<1, dim, Number> momentum;
+    double                         body_force_power = 0;
+
+    unsigned int failed = Particles<dim>::none; // the particle of lowest number that broke a limit
+    Limit        broken = Limit::finite;
+  };
+} // namespace Talus

@@ -1,0 +1,91 @@
+#include <talus/simulation/references.h>
+
+#include <sstream>
+
+namespace Talus
+{
+  template <int dim>
+  References<dim>::References(Parameters &parameters, Model<dim> &model, const Communicator &communicator)
+  {
+    verification = Verification<dim>::make(parameters, communicator);
+    if (verification)
+      errors.resize(Verification<dim>::columns().size());
+    const std::string section = "/FEM reference";
+    if (parameters.choose_from(section, "Compare", "no", "no|yes",
+                               "Solve the problem by finite elements too, for comparison.") == "no")
+      return;
+    if (parameters.choose_from(section, "Model", "linear elastic", "linear elastic|J2",
+                               "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
+                               "plasticity, a load-displacement curve is written.") == "J2")
+      load_curve = std::make_unique<LoadCurve<dim>>(parameters, section, communicator);
+    else
+    {
+      comparison = std::make_unique<Comparison<dim>>(parameters, section, model.material_names, communicator);
+      comparison->add_fields(model.particles);
+    }
+  }
+
+  template <int dim>
+  void References<dim>::start(Model<dim> &model)
+  {
+    if (verification)
+      verification->start(model.materials, model.particles, model.acceleration);
+  }
+
+  template <int dim>
+  double References<dim>::next_stop(const double time, const double end_time) const
+  {
+    return verification ? verification->next_stop(time, end_time) : end_time;
+  }
+
+  template <int dim>
+  void References<dim>::add_to(Table &table) const
+  {
+    for (unsigned int c = 0; c < errors.size(); ++c)
+    {
+      const Column column = Verification<dim>::columns()[c];
+      table.add(column.name, column.unit, errors[c]);
+    }
+  }
+
+  template <int dim>
+  void References<dim>::measure(const double time, const Model<dim> &model)
+  {
+    if (verification)
+      errors = verification->errors(time, model.particles);
+  }
+
+  template <int dim>
+  void References<dim>::accumulate(const Moment &now, const double end_time, Model<dim> &model)
+  {
+    if (comparison && now.step > 0)
+      comparison->accumulate(now.time, now.dt, end_time, model.boundary, model.particles);
+    if (verification)
+      verification->record(now.time, end_time, now.step, model.particles);
+  }
+
+  template <int dim>
+  std::string References<dim>::finish(const double time, const double end_time, const std::string &directory,
+                                      Model<dim> &model)
+  {
+    std::ostringstream text;
+    if (comparison && time < end_time)
+      text << "\nNo comparison with the finite element reference: the run ended before its end time.\n";
+    else if (comparison)
+    {
+      comparison->finish(end_time, model.materials, model.boundary.names, model.particles);
+      comparison->write(directory + "/comparison.csv", text);
+    }
+    if (verification)
+      verification->write(directory + "/verification.csv", text);
+    if (load_curve)
+    {
+      load_curve->compute(end_time, directory + "/load_curve.csv");
+      text << load_curve->summary();
+    }
+    return text.str();
+  }
+
+  template class References<2>;
+  template class References<3>;
+} // namespace Talus

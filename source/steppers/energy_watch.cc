@@ -1,0 +1,104 @@
+#include <talus/core/exceptions.h>
+#include <talus/steppers/energy_watch.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The particle for which values[p] is greatest: number, place, and the value under its name. Collective. */
+    template <int dim>
+    std::string describe_greatest(const Model<dim> &model, const std::string &name, const std::vector<double> &values)
+    {
+      const Particles<dim>          &particles = model.particles;
+      std::pair<double, std::string> greatest(-1., "");
+      if (!values.empty())
+      {
+        const unsigned int p = std::max_element(values.begin(), values.end()) - values.begin();
+        std::ostringstream text;
+        text << "particle " << particles.id[p] << " at " << to_text(particles.vector(particles.position, p)) << " with "
+             << name << " " << values[p];
+        greatest = {values[p], text.str()};
+      }
+      for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, greatest))
+        greatest = std::max(greatest, other);
+      return greatest.second;
+    }
+
+    /** Elastic energy of each particle. */
+    template <int dim>
+    std::vector<double> strain_energies(Model<dim> &model)
+    {
+      std::vector<double> energies(model.particles.size());
+      const double       *volume = model.particles.component(model.particles.volume, 0);
+      const auto          ranges = material_ranges(model.particles, /* dt = */ 0.);
+      for (unsigned int m = 0; m < ranges.size(); ++m)
+        model.materials[m]->strain_energy_densities(ranges[m], energies.data() + ranges[m].begin);
+      for (unsigned int p = 0; p < energies.size(); ++p)
+        energies[p] *= volume[p];
+      return energies;
+    }
+  } // namespace
+
+  template <int dim>
+  void EnergyWatch<dim>::start(const Report &first, const double strain_energy)
+  {
+    initial_energy = first.kinetic_energy + strain_energy;
+    // Round-off of a body at rest: velocities of a millionth of the wave speed.
+    floor = 1e-12 * first.mass * first.signal_speed * first.signal_speed;
+  }
+
+  template <int dim>
+  void EnergyWatch<dim>::check(Model<dim> &model, const Report &report, const Moment &moment)
+  {
+    body_force_work += moment.dt * report.body_force_power;
+    for (const auto &condition : model.boundary.conditions)
+      condition_work += condition->work;
+    double work = 0;
+    for (const auto &load : model.tractions.loads)
+      work += load->work;
+    traction_work += work;
+    damping_energy -= model.boundary.damping.work;
+    compare("kinetic energy", report.kinetic_energy, moment, [&] {
+      std::vector<double> speeds(model.particles.size());
+      for (unsigned int p = 0; p < speeds.size(); ++p)
+        speeds[p] = model.particles.vector(model.particles.velocity, p).norm();
+      return "Fastest is " + describe_greatest(model, "speed", speeds);
+    });
+  }
+
+  template <int dim>
+  void EnergyWatch<dim>::check_total(Model<dim> &model, const Report &report, const double strain_energy,
+                                     const Moment &moment) const
+  {
+    compare("kinetic and elastic energy", report.kinetic_energy + strain_energy, moment, [&] {
+      auto energies = strain_energies(model);
+      for (unsigned int p = 0; p < energies.size(); ++p)
+        energies[p] += 0.5 * model.particles.component(model.particles.mass, 0)[p] *
+                       model.particles.vector(model.particles.velocity, p).norm_square();
+      return "Most of it has " + describe_greatest(model, "energy", energies);
+    });
+  }
+
+  template <int dim>
+  void EnergyWatch<dim>::compare(const std::string &name, const double energy, const Moment &moment,
+                                 const std::function<std::string()> &culprit) const
+  {
+    // Not less what damping took: where little is left, the errors of what was put in would count.
+    const double available = initial_energy + body_force_work + condition_work + traction_work;
+    if (energy <= 2 * std::max(available, 0.) + floor)
+      return;
+    std::ostringstream message;
+    message << "The " << name << " " << energy << moment.text() << " is more than twice the " << available
+            << " that initial state, body force, tractions and conditions account for: the run is unstable. "
+            << culprit() << ". Lower the Courant number, or correct the kernels near the boundary.";
+    throw RunError(message.str());
+  }
+
+  template class EnergyWatch<2>;
+  template class EnergyWatch<3>;
+} // namespace Talus

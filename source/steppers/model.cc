@@ -1,0 +1,137 @@
+#include <talus/core/exceptions.h>
+#include <talus/steppers/model.h>
+
+#include <limits>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Model<dim>::Model(Parameters &parameters, const Communicator &communicator) :
+    ParameterAcceptor("/Run"), grid("/Grid", communicator),
+    kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
+    transfer(
+      parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
+    smoothing(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
+  {
+    kernel->choose(parameters);
+    kernel->attach(grid);
+    build_bodies(parameters);
+    build_conditions(parameters);
+    kernel->add_fields(particles);
+    transfer->add_fields(particles);
+    transfer->is_plain =
+      parameters.choose_from("/Run", "Loops", "batched", "batched|plain",
+                             "batched: many particles at a time; plain: one, the slow reference of the others.") ==
+      "plain";
+    add_parameter("Body force", acceleration_text,
+                  "Force per mass [length/time^2], for instance gravity: functions of x, y, z, t, separated by ';'.");
+    add_parameter("Local damping", boundary.damping.factor,
+                  "Share alpha of each nodal force that opposes the motion, for quasi-static work [1]; 0: none.", prm,
+                  Patterns::Double());
+  }
+
+  template <int dim>
+  void Model<dim>::build_bodies(Parameters &parameters)
+  {
+    material_names = parameters.names("/Materials", "Names of the materials; each has a subsection of its name.");
+    const auto body_names = parameters.names("/Bodies", "Names of the bodies; each has a subsection of its name.");
+    AssertThrow(!material_names.empty() || body_names.empty(),
+                EntryError("/Materials", "Names", "give at least one material."));
+    for (const auto &name : material_names)
+    {
+      materials.push_back(
+        parameters.make<Material>("/Materials/" + name, "Type", "linear elastic", "Constitutive law."));
+      particles.add_states(materials.back()->state_names());
+    }
+    for (const auto &name : body_names)
+      bodies.push_back(std::make_unique<Body<dim>>(parameters, name, material_names));
+  }
+
+  template <int dim>
+  void Model<dim>::build_conditions(Parameters &parameters)
+  {
+    boundary.names = parameters.names("/Conditions", "Names of the conditions in the order in which they act.");
+    for (const auto &name : boundary.names)
+      boundary.conditions.push_back(
+        parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", "Kind of condition."));
+
+    std::vector<std::string> body_names;
+    for (const auto &body : bodies)
+      body_names.push_back(body->name);
+    tractions.names = parameters.names("/Tractions", "Names of the tractions; each has a subsection of its name.");
+    for (const auto &name : tractions.names)
+      tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
+  }
+
+  template <int dim>
+  void Model<dim>::parse_parameters(ParameterHandler &)
+  {
+    acceleration.initialize(acceleration_text, get_section_name(), "Body force");
+    if (!(boundary.damping.factor >= 0 && boundary.damping.factor < 1))
+      throw EntryError(get_section_name(), "Local damping",
+                       "it must lie between 0 and 1, 1 excluded; 0.7 comes to rest soon.");
+  }
+
+  template <int dim>
+  void Model<dim>::create(const std::function<void()> &initialize)
+  {
+    for (const auto &body : bodies)
+    {
+      if (transfer->reach(*kernel).at_corners && materials[body->material]->carries_volume_only())
+        throw EntryError("/Kernel", "Type",
+                         "the domains of '" + body->name + "' would follow its deformation gradient, and a fluid has "
+                         "none. Take a B-spline.");
+      body->shape->create(grid.lattice.h);
+    }
+    const Reach reach = transfer->reach(*kernel);
+    grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
+    particles.set_reach(grid, reach);
+    smoothing.add_fields(materials, particles);
+    if (!bodies.empty())
+      particles.create(grid, bodies, materials);
+    for (auto &condition : boundary.conditions)
+      condition->attach(grid);
+    boundary.mark_slip_walls(std::numeric_limits<double>::min(), particles.n_stencil_nodes, grid);
+    initialize();
+    transfer->initialize(*kernel, particles);
+    smoothing.initialize(materials, *kernel, particles, grid);
+    for (auto &traction : tractions.loads)
+      traction->attach(grid, bodies, particles);
+  }
+
+  template <int dim>
+  void Model<dim>::add_to(Reduction &reduction)
+  {
+    reduction.sum(grid.lost_momentum);
+    boundary.add_to(reduction);
+    tractions.add_to(reduction);
+  }
+
+  template <int dim>
+  std::string Model<dim>::summary() const
+  {
+    const auto chosen = [](const std::string &section, const std::string &entry) {
+      prm.enter_subsection(section);
+      const std::string value = prm.get(entry);
+      prm.leave_subsection();
+      return value;
+    };
+    std::ostringstream text;
+    text << "  grid       ";
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d == 0 ? "" : " x ") << grid.lattice.n_cells[d];
+    text << " cells, " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
+         << bodies.size()
+         << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
+         << "  kernel     " << chosen("Kernel", "Type")
+         << (kernel->lattice_form() ? ", boundary treatment " + chosen("Kernel", "Boundary treatment") : "")
+         << "\n  transfer   " << chosen("Transfer", "Type") << '\n';
+    return text.str();
+  }
+
+  template class Model<2>;
+  template class Model<3>;
+} // namespace Talus

@@ -1,0 +1,207 @@
+#include <talus/core/exceptions.h>
+#include <talus/particles/batch_access.h>
+#include <talus/steppers/watch.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double largest_increment = 0.5;
+
+    template <class Number>
+    double greatest(const Number &value)
+    {
+      return *std::max_element(value.data(), value.data() + Number::n_lanes);
+    }
+
+    template <class Number>
+    double sum(const Number &value)
+    {
+      return std::accumulate(value.data(), value.data() + Number::n_lanes, 0.);
+    }
+  } // namespace
+
+  std::string Moment::text() const
+  {
+    std::ostringstream text;
+    text << " in step " << step << ", t = " << time << ", dt = " << dt;
+    return text.str();
+  }
+
+  template <int dim>
+  void Watch<dim>::start(const std::vector<MaterialRange> &ranges, const double time, const double dt)
+  {
+    this->ranges = &ranges;
+    this->time   = time;
+    this->dt     = dt;
+
+    const WorkingSet<dim> &particles = model.particles;
+    x                                = particles.template components<dim>(
+      model.acceleration.is_of_initial_position() ? particles.initial_position : particles.position);
+    v                                = particles.template components<dim>(particles.velocity);
+    F                                = particles.template components<dim * dim>(particles.F);
+    grad_v                           = particles.template components<dim * dim>(particles.grad_v);
+    stress                           = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass                             = particles.component(particles.mass, 0);
+
+    b            = model.acceleration.uniform_value(time);
+    signal_speed = total_mass = kinetic_energy = 0.;
+    momentum                                   = Tensor<1, dim, Number>();
+    body_force_power                           = 0;
+    failed                                     = Particles<dim>::none;
+  }
+
+  template <int dim>
+  void Watch<dim>::look_at(const unsigned int begin, const unsigned int end)
+  {
+    speeds.resize(end - begin);
+    for (unsigned int m = 0; m < ranges->size(); ++m)
+    {
+      const MaterialRange range = intersection((*ranges)[m], begin, end);
+      if (range.begin == range.end)
+        continue;
+      model.materials[m]->wave_speeds(range, speeds.data() + (range.begin - begin));
+      const double largest = model.materials[m]->largest_volume_ratio();
+      for_each_batch(range.begin, range.end, [&](const auto batch) { look_at(batch, speeds.data() - begin, largest); });
+    }
+
+    if (model.acceleration.depends_on_space())
+      for (unsigned int p = begin; p < end; ++p)
+      {
+        const SingleBatch one{p};
+        const auto        b_p = model.acceleration.value(Point<dim>(load_vector<dim>(one, x)), time);
+        body_force_power += mass[p] * (b_p * load_vector<dim>(one, v));
+      }
+  }
+
+  template <int dim>
+  template <class Batch>
+  void Watch<dim>::look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio)
+  {
+    const auto   v_p = load_vector<dim>(batch, v);
+    const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
+    signal_speed = max(signal_speed, batch.load(speeds) + sqrt(squares));
+    total_mass += counted_mass;
+    kinetic_energy += 0.5 * counted_mass * squares;
+    momentum += counted_mass * v_p;
+
+    Number magnitude = squares, increment = 0.;
+    for (const double *column : stress)
+      magnitude += abs(batch.load(column));
+    for (const double *column : grad_v)
+    {
+      const Number g = batch.load(column);
+      increment += g * g;
+    }
+    const Number J = determinant(load_matrix<dim>(batch, F));
+    // Comparisons are written so that NaN fails them.
+    const auto is_finite = magnitude <= Number(std::numeric_limits<double>::max());
+    const auto is_open   = (J > Number(0.)) & (J <= Number(largest_volume_ratio));
+    const auto is_slow   = dt * dt * increment <= Number(largest_increment * largest_increment);
+    const auto is_broken = !(is_finite & is_open & is_slow);
+    if (any(is_broken))
+      for (unsigned int l = 0; l < batch.size(); ++l)
+        if (is_broken[l])
+          note(batch.p + l, !is_finite[l] ? Limit::finite : !is_open[l] ? Limit::volume_ratio : Limit::increment);
+  }
+
+  template <int dim>
+  void Watch<dim>::note(const unsigned int p, const Limit limit)
+  {
+    const auto &id = model.particles.id;
+    if (failed != Particles<dim>::none && id[failed] < id[p])
+      return;
+    failed = p;
+    broken = limit;
+  }
+
+  template <int dim>
+  Report Watch<dim>::finish(const double displacement)
+  {
+    const auto &particles = model.particles;
+    if (particles.outside != particles.none && particles.outside != failed)
+      note(particles.outside, Limit::grid);
+
+    Report report;
+    report.signal_speed     = greatest(signal_speed);
+    report.displacement     = displacement;
+    report.needs_migration  = particles.needs_synchronise;
+    report.needs_activation = particles.needs_activation;
+    report.has_failed       = failed != particles.none;
+    report.mass             = sum(total_mass);
+    report.kinetic_energy   = sum(kinetic_energy);
+    if (model.acceleration.depends_on_space())
+      report.body_force_power = body_force_power;
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+        report.body_force_power += b[d] * sum(momentum[d]);
+
+    // One message for all global numbers of a step.
+    Reduction reduction;
+    report.add_to(reduction);
+    model.add_to(reduction);
+    reduction.run(model.grid.communicator);
+    if (report.has_failed)
+      describe_failure(report);
+    return report;
+  }
+
+  template <int dim>
+  void Watch<dim>::describe_failure(Report &report) const
+  {
+    const auto &particles = model.particles;
+    using Failure         = std::pair<types::particle_index, std::vector<std::string>>;
+    Failure first(std::numeric_limits<types::particle_index>::max(), {});
+    if (failed != particles.none)
+    {
+      std::ostringstream what;
+      what << "Particle " << particles.id[failed] << ' ' << describe(failed, broken) << ", at "
+           << to_text(particles.vector(particles.position, failed));
+      first = {particles.id[failed],
+               {what.str(), broken == Limit::grid ?
+                              "Enlarge the grid, or lower the Courant number." :
+                              "Lower the Courant number, or correct the kernels near the boundary."}};
+    }
+    for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
+      first = std::min(first, other);
+    report.failure = first.second[0];
+    report.remedy  = first.second[1];
+  }
+
+  template <int dim>
+  std::string Watch<dim>::describe(const unsigned int p, const Limit limit) const
+  {
+    const auto        &particles = model.particles;
+    std::ostringstream text;
+    switch (limit)
+    {
+      case Limit::finite:
+        text << "has a velocity or stress that is not a finite number";
+        break;
+      case Limit::volume_ratio:
+        text << "has the volume ratio J = " << determinant(particles.matrix(particles.F, p)) << ", outside (0, "
+             << model.materials[particles.material_of(p)]->largest_volume_ratio() << "]";
+        break;
+      case Limit::increment:
+        text << "deforms by |grad v| dt = " << dt * particles.matrix(particles.grad_v, p).norm()
+             << " in one step, more than " << largest_increment;
+        break;
+      case Limit::grid:
+        text << (model.grid.contains(particles.vector(particles.position, p)) ?
+                   "has a domain that reaches beyond the grid" :
+                   "left the grid");
+        break;
+    }
+    return text.str();
+  }
+
+  template class Watch<2>;
+  template class Watch<3>;
+} // namespace Talus

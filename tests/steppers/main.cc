@@ -1,0 +1,25 @@
+#include "../check.h"
+
+void sweep();
+template <int dim>
+void sound_state();
+template <int dim>
+void broken_limits();
+template <int dim>
+void edge();
+template <int dim>
+void explicit_steps();
+
+int main(int argc, char **argv)
+{
+  return Test::run(argc, argv,
+                   {{"sweep", sweep},
+                    {"watch: a sound state, 2D", sound_state<2>},
+                    {"watch: a sound state, 3D", sound_state<3>},
+                    {"watch: limits, 2D", broken_limits<2>},
+                    {"watch: limits, 3D", broken_limits<3>},
+                    {"watch: at the edge, 2D", edge<2>},
+                    {"watch: at the edge, 3D", edge<3>},
+                    {"explicit steps, 2D", explicit_steps<2>},
+                    {"explicit steps, 3D", explicit_steps<3>}});
+}
