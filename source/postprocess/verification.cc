@@ -44,7 +44,7 @@ namespace Talus
                              "initial velocities and body force, and errors are measured.");
     if (chosen == "none")
       return nullptr;
-    return std::unique_ptr<Verification>(new Verification(Solutions::get().make(chosen, section), communicator));
+    return std::unique_ptr<Verification>(new Verification(Solutions::get().make(chosen, parameters, section), communicator));
   }
 
   template <int dim>
