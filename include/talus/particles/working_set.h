@@ -119,11 +119,6 @@ namespace Talus
     /** Particles material_begin[m] .. material_begin[m + 1] - 1 are of material m. */
     std::vector<unsigned int> material_begin;
 
-    unsigned int material_of(const unsigned int p) const
-    {
-      return std::upper_bound(material_begin.begin(), material_begin.end(), p) - material_begin.begin() - 1;
-    }
-
     /** Of each material, the fields that hold its state. */
     std::vector<std::vector<unsigned int>> state_fields;
 
