@@ -80,6 +80,10 @@ foreach(ranks 1 2)
   talus_add_run(regression.load_curve.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/load_curve.py
     $<TARGET_FILE:talus> ${CMAKE_CURRENT_SOURCE_DIR}/regression/load_curve.prm ${work}/regression/load_curve.${ranks}
     ${ranks} ${MPIRUN})
+  talus_add_run(regression.reference_motion.mpirun=${ranks} ${ranks}
+    ${CMAKE_CURRENT_SOURCE_DIR}/regression/reference_motion.py $<TARGET_FILE:talus>
+    ${CMAKE_CURRENT_SOURCE_DIR}/regression/reference_motion.prm ${work}/regression/reference_motion.${ranks} ${ranks}
+    ${MPIRUN})
   talus_add_run(regression.viscous.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/viscous.py
     $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR}/prm/dam_break.prm ${work}/regression/viscous.${ranks} ${ranks} ${MPIRUN})
 endforeach()

@@ -36,7 +36,7 @@ namespace Talus
 
   template <int dim>
   void DisplacementConditions<dim>::prescribe(const Mapping<dim> &mapping, const DoFHandler<dim> &dof_handler,
-                                              const double time)
+                                              const double time, const bool must_be_held)
   {
     if (size == 0.)
       locate_nodes(mapping, dof_handler);
@@ -48,7 +48,14 @@ namespace Talus
       if (conditions[k]->has_box())
         prescribe_box(k, dof_handler, time);
     }
-    check_body_is_held();
+    if (must_be_held)
+      check_body_is_held();
+  }
+
+  template <int dim>
+  bool DisplacementConditions<dim>::depends_on_time() const
+  {
+    return std::any_of(conditions.begin(), conditions.end(), [](const auto &c) { return c->depends_on_time(); });
   }
 
   template <int dim>

@@ -14,10 +14,15 @@ namespace Talus
     if (parameters.choose_from(section, "Compare", "no", "no|yes",
                                "Solve the problem by finite elements too, for comparison.") == "no")
       return;
-    if (parameters.choose_from(section, "Model", "linear elastic", "linear elastic|J2",
-                               "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
-                               "plasticity, a load-displacement curve is written.") == "J2")
+    const std::string reference =
+      parameters.choose_from(section, "Model", "linear elastic", "linear elastic|J2|dynamic",
+                             "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
+                             "plasticity, a load-displacement curve is written; 'dynamic': a neo-Hookean body in "
+                             "motion, displacements at points are written.");
+    if (reference == "J2")
       load_curve = std::make_unique<LoadCurve<dim>>(parameters, section, communicator);
+    else if (reference == "dynamic")
+      motion = std::make_unique<ReferenceMotion<dim>>(parameters, section, communicator);
     else
     {
       comparison = std::make_unique<Comparison<dim>>(parameters, section, model.material_names, communicator);
@@ -82,6 +87,11 @@ namespace Talus
     {
       load_curve->compute(end_time, directory + "/load_curve.csv");
       text << load_curve->summary();
+    }
+    if (motion)
+    {
+      motion->compute(end_time, directory + "/fem_motion.csv");
+      text << motion->summary();
     }
     return text.str();
   }

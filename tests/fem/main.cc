@@ -13,6 +13,8 @@ void plastic_element();
 void plastic_newton();
 void cylinder();
 void locking();
+void dynamic();
+void dynamic_errors();
 void footing();
 void long_footing();
 
@@ -32,6 +34,8 @@ int main(int argc, char **argv)
                     {"plastic newton", plastic_newton},
                     {"cylinder", cylinder},
                     {"locking", locking},
+                    {"dynamic", dynamic},
+                    {"dynamic errors", dynamic_errors},
                     {"long: footing h = .1", footing},
                     {"long: footings", long_footing}});
 }

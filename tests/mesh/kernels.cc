@@ -121,7 +121,7 @@ namespace
     check(name + ": linear fields", linear, 1e-12);
     check(name + ": sum of g", sum_of_g, 1e-12);
     check(name + ": sum of x (x) g", identity, 1e-12);
-    check(name + ": offsets", offsets, 0.);
+    check_true(name + ": offsets", offsets == 0);
   }
 
   /** The greatest jumps of phi and g h where two cells meet. */

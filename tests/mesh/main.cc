@@ -12,6 +12,10 @@ DECLARE(true_gradient)
 DECLARE(mesh_file)
 DECLARE(location)
 DECLARE(many_particles)
+DECLARE(parts)
+DECLARE(moving_between_parts)
+void parts_errors();
+void many_moves_between_parts();
 void wrong_meshes();
 void line();
 
@@ -40,5 +44,11 @@ int main(int argc, char **argv)
                     {"wrong meshes", wrong_meshes},
                     {"location 2D", location<2>},
                     {"location 3D", location<3>},
-                    {"long: many particles 3D", many_particles<3>}});
+                    {"parts 2D", parts<2>},
+                    {"parts 3D", parts<3>},
+                    {"moving between parts 2D", moving_between_parts<2>},
+                    {"moving between parts 3D", moving_between_parts<3>},
+                    {"parts: errors", parts_errors},
+                    {"long: many particles 3D", many_particles<3>},
+                    {"long: many moves between parts 3D", many_moves_between_parts}});
 }

@@ -30,6 +30,8 @@ namespace Talus
 
     bool has_box() const { return !lower.empty(); }
 
+    bool depends_on_time() const { return uses_variable(formulas, "t"); }
+
     /** Whether the box holds the point; a margin of `tolerance` [length] belongs to it. */
     bool is_in_box(const dealii::Point<dim> &x, const double tolerance) const;
 

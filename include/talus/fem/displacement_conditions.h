@@ -29,8 +29,23 @@ namespace Talus
     /** Reads the names and builds the conditions of `section`. */
     DisplacementConditions(Parameters &parameters, const std::string &section);
 
-    /** Finds the degrees of freedom and their values at `time`; always for the same mesh. Collective. */
-    void prescribe(const dealii::Mapping<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler, const double time);
+    /**
+     * Finds the degrees of freedom and their values at `time`; always for the same mesh. A body in equilibrium must be
+     * held, one with inertia need not. Collective.
+     */
+    void prescribe(const dealii::Mapping<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler, const double time,
+                   const bool must_be_held = true);
+
+    /** Calls `visit(dof, value)` for what is prescribed of this rank's own degrees of freedom. */
+    template <class Visitor>
+    void for_each_owned(const Visitor &visit) const
+    {
+      for (const auto &[dof, data] : prescribed)
+        if (owned.is_element(dof))
+          visit(dof, data.value);
+    }
+
+    bool depends_on_time() const;
 
     /** What is prescribed; with `current` what still has to be added to it. */
     dealii::AffineConstraints<double> constraints(const Vector *current = nullptr) const;

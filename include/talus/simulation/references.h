@@ -2,6 +2,7 @@
 
 #include <talus/postprocess/comparison.h>
 #include <talus/postprocess/load_curve.h>
+#include <talus/postprocess/reference_motion.h>
 #include <talus/postprocess/verification.h>
 #include <talus/steppers/model.h>
 #include <talus/steppers/report.h>
@@ -35,6 +36,8 @@ namespace Talus
   private:
     std::unique_ptr<Comparison<dim>> comparison; // with the elastic one
     std::unique_ptr<LoadCurve<dim>>  load_curve; // of the plastic one
+
+    std::unique_ptr<ReferenceMotion<dim>> motion; // of the dynamic one
 
     std::unique_ptr<Verification<dim>> verification;
     std::vector<double>                errors; // against the solution, in the order of their columns

@@ -92,11 +92,12 @@ namespace Talus
 
     const internal::C1Point<dim> point(mesh, feet, cell, x, options);
     const double                 inverse_s = 1 / point.s;
-    list_ring(mesh, cell, x, list, [&](const unsigned int k, const unsigned int touches) {
-      list.weight[k] = point.gamma[touches];
-      for (unsigned int d = 0; d < dim; ++d)
-        list.gradient[d][k] = point.grad_gamma[d][touches];
-    });
+    const auto                   to =
+      list_ring(mesh, cell, x, list, [&](const auto &to, const unsigned int k, const unsigned int touches) {
+        to.weight[k] = point.gamma[touches];
+        for (unsigned int d = 0; d < dim; ++d)
+          to.gradient[d][k] = point.grad_gamma[d][touches];
+      });
 
     Sums  M;
     Lanes d[dim];
@@ -105,14 +106,14 @@ namespace Talus
       Lanes square = 0.;
       for (unsigned int e = 0; e < dim; ++e)
       {
-        d[e] = inverse_s * Lanes::load(&list.offset[e][k]);
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
         square += d[e] * d[e];
       }
-      const Lanes q = sqrt(square), b = Weight::value(q), gamma = Lanes::load(&list.weight[k]);
+      const Lanes q = sqrt(square), b = Weight::value(q), gamma = Lanes::load(to.weight + k);
       const Lanes weight = b * gamma, slope = inverse_s * gamma * Weight::slope_over_q(q);
-      weight.store(&list.weight[k]);
+      weight.store(to.weight + k);
       for (unsigned int e = 0; e < dim; ++e)
-        (b * Lanes::load(&list.gradient[e][k]) - slope * (d[e] + square * point.grad_s[e])).store(&list.gradient[e][k]);
+        (b * Lanes::load(to.gradient[e] + k) - slope * (d[e] + square * point.grad_s[e])).store(to.gradient[e] + k);
       M.add(weight, d);
     }
     const auto inverse = M.inverse();
@@ -125,11 +126,11 @@ namespace Talus
     for (unsigned int k = 0; k < list.padded_size; k += w8)
     {
       for (unsigned int e = 0; e < dim; ++e)
-        d[e] = inverse_s * Lanes::load(&list.offset[e][k]);
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
       const Lanes correction = internal::dot<dim>(inverse[0].data(), d);
       for (unsigned int e = 0; e < dim; ++e)
       {
-        const Lanes term = correction * Lanes::load(&list.gradient[e][k]);
+        const Lanes term = correction * Lanes::load(to.gradient[e] + k);
         sums[0][e] += term;
         for (unsigned int i = 0; i < dim; ++i)
           sums[i + 1][e] += d[i] * term;
@@ -152,12 +153,12 @@ namespace Talus
     for (unsigned int k = 0; k < list.padded_size; k += w8)
     {
       for (unsigned int e = 0; e < dim; ++e)
-        d[e] = inverse_s * Lanes::load(&list.offset[e][k]);
-      const Lanes weight = Lanes::load(&list.weight[k]), correction = internal::dot<dim>(inverse[0].data(), d);
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
+      const Lanes weight = Lanes::load(to.weight + k), correction = internal::dot<dim>(inverse[0].data(), d);
       for (unsigned int e = 0; e < dim; ++e)
-        (weight * internal::dot<dim>(row[e], d) + correction * Lanes::load(&list.gradient[e][k]))
-          .store(&list.gradient[e][k]);
-      (weight * correction).store(&list.weight[k]);
+        (weight * internal::dot<dim>(row[e], d) + correction * Lanes::load(to.gradient[e] + k))
+          .store(to.gradient[e] + k);
+      (weight * correction).store(to.weight + k);
     }
   }
 } // namespace Talus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/core/simd.h>
+#include <talus/grid/simplex.h>
 
 #include <array>
 
@@ -34,38 +35,47 @@ namespace Talus
       }
     }
 
-    /** M^-1, of a positive definite M, by Gauss-Jordan elimination without pivoting. */
+    /**
+     * M^-1 of a positive definite M, by its block of the second moments about the mean c of d,
+     * @f[ S = \sum w\,d d^T - m\,c c^T , \quad M^{-1} =
+     *     \begin{pmatrix} 1/m + c^T S^{-1} c & -c^T S^{-1} \\ -S^{-1} c & S^{-1} \end{pmatrix} , \quad m = \sum w . @f]
+     */
     Matrix inverse() const
     {
-      Matrix M;
-      for (unsigned int i = 0, k = 0; i < n; ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-          M[i][j] = M[j][i] = sum(sums[k++]);
-      for (unsigned int k = 0; k < n; ++k)
+      const double m = sum(sums[0]), inverse_m = 1 / m;
+      double       c[dim];
+      Edges<dim>   S;
+      for (unsigned int i = 0, k = 1; i < dim; ++i)
       {
-        const double pivot = 1 / M[k][k];
-        M[k][k]            = 1;
-        for (unsigned int j = 0; j < n; ++j)
-          M[k][j] *= pivot;
-        for (unsigned int i = 0; i < n; ++i)
-          if (i != k)
-          {
-            const double factor = M[i][k];
-            M[i][k]             = 0;
-            for (unsigned int j = 0; j < n; ++j)
-              M[i][j] -= factor * M[k][j];
-          }
+        c[i] = inverse_m * sum(sums[k++]);
+        for (unsigned int j = 0; j <= i; ++j)
+          S[i][j] = S[j][i] = sum(sums[k++]) - m * c[i] * c[j];
       }
-      return M;
+      const auto inverse_S = dual(S);
+      Matrix     result;
+      result[0][0] = inverse_m;
+      for (unsigned int i = 0; i < dim; ++i)
+      {
+        double shift = 0;
+        for (unsigned int j = 0; j < dim; ++j)
+        {
+          result[i + 1][j + 1] = inverse_S[i][j];
+          shift += inverse_S[i][j] * c[j];
+        }
+        result[i + 1][0] = result[0][i + 1] = -shift;
+        result[0][0] += c[i] * shift;
+      }
+      return result;
     }
 
-    /** Sum of all lanes, in a fixed order. */
+    /** Sum of all lanes: the upper half is added to the lower until one is left. */
     static double sum(const Lanes &lanes)
     {
-      double result = 0;
-      for (int l = 0; l < width; ++l)
-        result += lanes[l];
-      return result;
+      static_assert(width == 8, "three halves");
+      const double *x    = lanes.data();
+      const auto    four = Simd<4>::load(x) + Simd<4>::load(x + 4);
+      const auto    two  = Simd<2>::load(four.data()) + Simd<2>::load(four.data() + 2);
+      return two[0] + two[1];
     }
 
   private:

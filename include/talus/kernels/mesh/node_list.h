@@ -22,12 +22,34 @@ namespace Talus
     std::vector<double>       weight;
     std::vector<double>       offset[dim], gradient[dim];
 
-    void resize(const unsigned int n)
+    /** The lists in memory, for loops. */
+    struct Arrays
+    {
+      unsigned int *node;
+      double       *weight, *offset[dim], *gradient[dim];
+    };
+
+    /** Makes room for n nodes. */
+    Arrays resize(const unsigned int n)
     {
       size        = n;
       padded_size = (n + width - 1) / width * width;
-      if (node.size() >= padded_size)
-        return;
+      if (node.size() < padded_size)
+        grow();
+      Arrays arrays;
+      arrays.node   = node.data();
+      arrays.weight = weight.data();
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        arrays.offset[d]   = offset[d].data();
+        arrays.gradient[d] = gradient[d].data();
+      }
+      return arrays;
+    }
+
+  private:
+    void grow()
+    {
       node.resize(padded_size);
       weight.resize(padded_size);
       for (unsigned int d = 0; d < dim; ++d)

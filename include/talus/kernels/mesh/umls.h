@@ -32,22 +32,35 @@ namespace Talus
     return sums;
   }
 
-  /** Lists the ring of a cell: nodes and offsets; calls `body(k, touches)` for each entry, touches = 0 for the filling.
+  /**
+   * Lists the ring of a cell: nodes and offsets; calls `body(lists, k, touches)` for each entry,
+   * touches = 0 for the filling.
    */
   template <int dim, class Body>
-  void list_ring(const Mesh<dim> &mesh, const unsigned int cell, const double *x, NodeList<dim> &list, const Body &body)
+  typename NodeList<dim>::Arrays list_ring(const Mesh<dim> &mesh, const unsigned int cell, const double *x,
+                                           NodeList<dim> &list, const Body &body)
   {
-    const std::size_t begin = mesh.rings.begin[cell];
-    list.resize(mesh.rings.size(cell));
-    for (unsigned int k = 0; k < list.padded_size; ++k)
-    {
-      const bool         is_real = k < list.size;
-      const unsigned int v       = mesh.rings.node[is_real ? begin + k : begin];
-      list.node[k]               = v;
+    const std::size_t    begin    = mesh.rings.begin[cell];
+    const unsigned int  *ring     = &mesh.rings.node[begin];
+    const unsigned char *touches  = &mesh.rings.touches[begin];
+    const auto          *position = mesh.position.data();
+    const auto           to       = list.resize(mesh.rings.size(cell));
+    const auto           set      = [&](const unsigned int k, const unsigned int v) {
+      to.node[k] = v;
       for (unsigned int d = 0; d < dim; ++d)
-        list.offset[d][k] = mesh.position[v][d] - x[d];
-      body(k, is_real ? mesh.rings.touches[begin + k] : 0);
+        to.offset[d][k] = position[v][d] - x[d];
+    };
+    for (unsigned int k = 0; k < list.size; ++k)
+    {
+      set(k, ring[k]);
+      body(to, k, touches[k]);
     }
+    for (unsigned int k = list.size; k < list.padded_size; ++k)
+    {
+      set(k, ring[0]);
+      body(to, k, 0);
+    }
+    return to;
   }
 
   /** s at a point where the vertices of its cell have these shares. */
@@ -80,9 +93,10 @@ namespace Talus
     const auto   B         = mesh.barycentric(cell, x);
     const double inverse_s = 1 / support_length(mesh, cell, B, options);
     const auto   gamma     = subset_sums<dim>(B);
-    list_ring(mesh, cell, x, list, [&](const unsigned int k, const unsigned int touches) {
-      list.weight[k] = options.has_gamma || touches == 0 ? gamma[touches] : 1.;
-    });
+    const auto   to =
+      list_ring(mesh, cell, x, list, [&](const auto &to, const unsigned int k, const unsigned int touches) {
+        to.weight[k] = options.has_gamma || touches == 0 ? gamma[touches] : 1.;
+      });
 
     MomentSums<dim, w8> M;
     Lanes               d[dim];
@@ -91,29 +105,29 @@ namespace Talus
       Lanes square = 0.;
       for (unsigned int e = 0; e < dim; ++e)
       {
-        d[e] = inverse_s * Lanes::load(&list.offset[e][k]);
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
         square += d[e] * d[e];
       }
-      const Lanes weight = Lanes::load(&list.weight[k]) * Weight::value(sqrt(square));
-      weight.store(&list.weight[k]);
+      const Lanes weight = Lanes::load(to.weight + k) * Weight::value(sqrt(square));
+      weight.store(to.weight + k);
       M.add(weight, d);
     }
 
     const auto inverse = M.inverse();
     for (unsigned int k = 0; k < list.padded_size; k += w8)
     {
-      const Lanes weight = Lanes::load(&list.weight[k]);
+      const Lanes weight = Lanes::load(to.weight + k);
       for (unsigned int e = 0; e < dim; ++e)
-        d[e] = inverse_s * Lanes::load(&list.offset[e][k]);
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
       for (unsigned int i = 0; i <= dim; ++i)
       {
         Lanes sum = inverse[i][0];
         for (unsigned int e = 0; e < dim; ++e)
           sum += inverse[i][e + 1] * d[e];
         if (i == 0)
-          (weight * sum).store(&list.weight[k]);
+          (weight * sum).store(to.weight + k);
         else
-          (weight * sum * inverse_s).store(&list.gradient[i - 1][k]);
+          (weight * sum * inverse_s).store(to.gradient[i - 1] + k);
       }
     }
   }
