@@ -355,7 +355,7 @@ namespace Talus
 
     lost_momentum += now.lost_momentum;
     if (now.has_failed)
-      report_failure(model, step, time, dt);
+      report_failure(model, now.failures, step, time, dt);
     energy.check(model, now, step, time, dt);
     if (step % energy.interval == 0 || is_finished())
       energy.check_total(model, now, totals(particles, *transfer, materials, communicator).strain_energy, step, time,

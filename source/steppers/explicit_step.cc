@@ -16,6 +16,9 @@ namespace Talus
   Survey<dim> explicit_step(Model<dim> &model, const double time, const double dt, const StepTiming &timing)
   {
     auto &[grid, particles, kernel, transfer, boundary, materials, acceleration, tractions] = model;
+    AssertThrow(!particles.needs_synchronise && particles.outside.empty(),
+                ExcMessage("Particles have strayed from their rank, or left the grid: the nodes would miss what they "
+                           "carry. Upkeep comes before the next step."));
     {
       Timing::Scope scope(timing.timing, timing.particle_to_grid);
       boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);

@@ -12,27 +12,6 @@ namespace Talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** A number that is finite only if velocity and stress of the particle are. */
-    template <int dim>
-    double magnitude(const WorkingSet<dim> &particles, const unsigned int p)
-    {
-      double sum = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        sum += std::abs(particles.component(particles.velocity, d)[p]);
-      for (unsigned int c = 0; c < particles.n_stress; ++c)
-        sum += std::abs(particles.component(particles.stress, c)[p]);
-      return sum;
-    }
-
-    // Comparisons are written so that NaN fails them.
-    bool             is_finite(const double x) { return x <= std::numeric_limits<double>::max(); }
-    constexpr double largest_increment = 0.5;
-    bool             is_valid_volume_ratio(const double J, const double largest) { return J > 0 && J <= largest; }
-    bool             is_valid_increment(const double grad_v_dt) { return grad_v_dt <= largest_increment; }
-  } // namespace
-
   template <int dim>
   Surveyor<dim>::Surveyor(Model<dim> &model, const std::vector<MaterialRange> &ranges, const double time,
                           const double dt) :
@@ -41,14 +20,13 @@ namespace Talus
   {
     const WorkingSet<dim> &particles = model.particles;
 
-    x        = particles.template components<dim>(particles.position);
-    v        = particles.template components<dim>(particles.velocity);
-    F        = particles.template components<dim * dim>(particles.F);
-    grad_v   = particles.template components<dim * dim>(particles.grad_v);
-    stress   = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-    mass     = particles.component(particles.mass, 0);
-    volume   = particles.component(particles.volume, 0);
-    is_valid = Number(0.) == Number(0.);
+    x      = particles.template components<dim>(particles.position);
+    v      = particles.template components<dim>(particles.velocity);
+    F      = particles.template components<dim * dim>(particles.F);
+    grad_v = particles.template components<dim * dim>(particles.grad_v);
+    stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass   = particles.component(particles.mass, 0);
+    volume = particles.component(particles.volume, 0);
   }
 
   template <int dim>
@@ -94,10 +72,16 @@ namespace Talus
       const Number g = batch.load(column);
       increment += g * g;
     }
-    const Number J = determinant(load_matrix<dim>(batch, F));
-    is_valid       = is_valid & (magnitude <= Number(std::numeric_limits<double>::max())) & (J > Number(0.)) &
-               (J <= Number(largest_volume_ratio)) &
-               (dt * dt * increment <= Number(largest_increment * largest_increment));
+    const Number J         = determinant(load_matrix<dim>(batch, F));
+    const auto   is_finite = magnitude <= Number(std::numeric_limits<double>::max());
+    const auto   has_ratio = J > Number(0.) & J <= Number(largest_volume_ratio);
+    const auto   is_small  = dt * dt * increment <= Number(largest_increment * largest_increment);
+    if (any(!(is_finite & has_ratio & is_small)))
+      for (unsigned int l = 0; l < batch.size(); ++l)
+        if (!is_finite[l] || !has_ratio[l] || !is_small[l])
+          failures.push_back({batch.p + l, !is_finite[l] ? Limit::finite :
+                                           !has_ratio[l] ? Limit::volume_ratio :
+                                                           Limit::increment});
   }
 
   template <int dim>
@@ -116,7 +100,7 @@ namespace Talus
         result += b[d] * sum(momentum[d]);
       return result;
     }();
-    const bool   has_failed = any(!is_valid) || particles.outside != particles.none;
+    const bool   has_failed = !failures.empty() || !particles.outside.empty();
 
     std::vector<double> maxima = {greatest(signal_speed), static_cast<double>(particles.needs_synchronise),
                                   static_cast<double>(has_failed), displacement};
@@ -137,6 +121,7 @@ namespace Talus
     reduce(maxima, sums, model.grid.communicator);
 
     Survey<dim> result;
+    result.failures          = failures;
     result.signal_speed      = maxima[0];
     result.needs_synchronise = maxima[1] > 0;
     result.has_failed        = maxima[2] > 0;
@@ -175,49 +160,6 @@ namespace Talus
     Surveyor<dim> surveyor(model, ranges, time, dt);
     surveyor.look_at(0, model.particles.size());
     return surveyor.finish(/* displacement = */ 0.);
-  }
-
-  template <int dim>
-  [[noreturn]] void report_failure(Model<dim> &model, const unsigned int step, const double time, const double dt)
-  {
-    const Particles<dim> &particles = model.particles;
-    using Report                    = std::pair<types::particle_index, std::string>;
-    Report       first(std::numeric_limits<types::particle_index>::max(), "");
-    unsigned int m = 0; // material of p
-    for (unsigned int p = 0; p < particles.size(); ++p)
-    {
-      while (p >= particles.material_begin[m + 1])
-        ++m;
-      const double       largest    = model.materials[m]->largest_volume_ratio();
-      const double       J          = determinant(particles.matrix(particles.F, p));
-      const double       increment  = dt * particles.matrix(particles.grad_v, p).norm();
-      bool               is_outside = false;
-      std::ostringstream what;
-      for (unsigned int d = 0; d < dim; ++d)
-        is_outside =
-          is_outside || !model.grid.lattice.is_inside(
-                          model.grid.lattice.coordinate(particles.component(particles.position, d)[p], d), d);
-      if (!is_finite(magnitude(particles, p)))
-        what << "has a velocity or stress that is not a finite number";
-      else if (!is_valid_volume_ratio(J, largest))
-        what << "has the volume ratio J = " << J << ", outside (0, " << largest << "]";
-      else if (!is_valid_increment(increment))
-        what << "deforms by |grad v| dt = " << increment << " in one step, more than 0.5";
-      else if (is_outside)
-        what << "left the grid";
-      else
-        continue;
-      if (particles.id[p] >= first.first)
-        continue;
-      what << ", at " << to_text(particles.vector(particles.position, p)) << " in step " << step << ", t = " << time
-           << ", dt = " << dt << ". "
-           << (is_outside ? "Enlarge the grid, or lower the Courant number." :
-                            "Lower the Courant number, or correct the kernels near the boundary.");
-      first = {particles.id[p], what.str()};
-    }
-    for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
-      first = std::min(first, other);
-    throw RunError("Particle " + std::to_string(first.first) + " " + first.second);
   }
 
   namespace
@@ -313,7 +255,6 @@ namespace Talus
 #define INSTANTIATE(dim)                                                                                               \
   template class Surveyor<dim>;                                                                                        \
   template Survey<dim> survey(Model<dim> &, const double, const double);                                               \
-  template void        report_failure(Model<dim> &, const unsigned int, const double, const double);                   \
   template class EnergyWatch<dim>;
   INSTANTIATE(2)
   INSTANTIATE(3)

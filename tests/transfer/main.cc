@@ -21,6 +21,8 @@ DECLARE(projection_elsewhere)
 DECLARE(mirror_and_whole)
 DECLARE(mirror_reaction)
 DECLARE(smoothing)
+DECLARE(limits)
+DECLARE(strays)
 DECLARE(traction_sums)
 DECLARE(traction_work)
 DECLARE(traction_errors)
@@ -64,6 +66,10 @@ int main(int argc, char **argv)
                     {"mirror: reaction 3D", mirror_reaction<3>},
                     {"smoothing of J 2D", smoothing<2>},
                     {"smoothing of J 3D", smoothing<3>},
+                    {"limits 2D", limits<2>},
+                    {"limits 3D", limits<3>},
+                    {"strays 2D", strays<2>},
+                    {"strays 3D", strays<3>},
                     {"traction sums 2D", traction_sums<2>},
                     {"traction sums 3D", traction_sums<3>},
                     {"traction work 2D", traction_work<2>},

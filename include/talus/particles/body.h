@@ -23,7 +23,7 @@ namespace Talus
     std::string                 name;
     unsigned int                material; // index
     std::unique_ptr<Shape<dim>> shape;
-    unsigned int                first_id = 0;
+    std::uint64_t               first_id = 0;
 
   private:
     /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */

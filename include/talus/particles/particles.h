@@ -75,9 +75,10 @@ namespace Talus
 
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
-    bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
-    bool         brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
-    unsigned int outside           = none;  // set by relocate(): the first particle outside the grid
+    bool needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
+    bool brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
+
+    std::vector<unsigned int> outside; // set by relocate(): the particles outside the grid
 
     std::uint64_t n_global    = 0;
     std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places
@@ -86,10 +87,13 @@ namespace Talus
     /** Appends the n particles of the home to the working set, and empties the home. */
     void load(const unsigned int n);
 
-    /** Lattice index of the first node of a particle's stencil. */
-    typename Lattice<dim>::Index first_node(const unsigned int p) const;
+    /**
+     * Entry of the lattice's tables at which a particle's stencil begins. Throws where this rank does not know all
+     * nodes of the stencil: what the particle carries would be lost there.
+     */
+    unsigned int place(const unsigned int p) const;
 
-    unsigned int body_of(const dealii::types::particle_index id) const;
+    unsigned int body_of(const std::uint64_t id) const;
 
     /** Ranks of the cells of some particles. Collective where this rank does not know a cell. */
     std::vector<unsigned int> ranks_of(const std::vector<unsigned int> &particles) const;
@@ -104,8 +108,8 @@ namespace Talus
     std::unique_ptr<dealii::MappingCartesian<dim>>           mapping;
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
 
-    std::vector<unsigned int> body_begin; // first id of each body
-    std::vector<unsigned int> body_material;
+    std::vector<std::uint64_t> body_begin; // first id of each body
+    std::vector<unsigned int>  body_material;
 
     std::vector<char> coverage;
     double            stencil_shift      = 0;

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <cstdint>
 #include <functional>
 
 namespace Talus
@@ -20,7 +21,7 @@ namespace Talus
   public:
     using Point = dealii::Point<dim>;
     /** Receives the index of a point within its body, its position and its volume. */
-    using Visitor = std::function<void(const unsigned int index, const Point &x, const double volume)>;
+    using Visitor = std::function<void(const std::uint64_t index, const Point &x, const double volume)>;
 
     using dealii::ParameterAcceptor::ParameterAcceptor;
 
@@ -45,6 +46,6 @@ namespace Talus
     }
 
     /** All indices are below this number. */
-    virtual unsigned int n_indices() const = 0;
+    virtual std::uint64_t n_indices() const = 0;
   };
 } // namespace Talus

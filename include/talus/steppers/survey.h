@@ -1,7 +1,7 @@
 #pragma once
 
 #include <talus/core/tensors.h>
-#include <talus/steppers/model.h>
+#include <talus/steppers/failure.h>
 
 #include <functional>
 #include <string>
@@ -15,11 +15,12 @@ namespace Talus
     double                 signal_speed      = 0; // max (c_p + |v_p|) [length/time], Eq. (35)
     double                 displacement      = 0; // largest of a particle in the last step [spacing]
     bool                   needs_synchronise = false;
-    bool                   has_failed        = false; // a particle broke a limit of validity
+    bool                   has_failed        = false; // a particle broke a limit of validity, or left the grid
     double                 mass              = 0;
     double                 kinetic_energy    = 0;
     double                 body_force_power  = 0; // sum m b . v [energy/time]
     dealii::Tensor<1, dim> lost_momentum;         // of empty nodes, in the last step
+    std::vector<Failure>   failures;              // of this rank's particles
 
     std::vector<dealii::Tensor<1, dim>> reactions;    // of each condition in the last step [force]
     std::vector<dealii::Tensor<1, dim>> nodal_forces; // on what each condition set [force]
@@ -62,21 +63,13 @@ namespace Talus
     std::vector<double>            speeds;
     Number                         signal_speed = 0., total_mass = 0., kinetic_energy = 0.;
     dealii::Tensor<1, dim, Number> momentum;
-    typename Number::Mask          is_valid;
+    std::vector<Failure>           failures;
     double                         body_force_power = 0;
   };
 
   /** Looks at all particles and conditions; before the first step. Collective. */
   template <int dim>
   Survey<dim> survey(Model<dim> &model, const double time, const double dt);
-
-  /**
-   * Says which particle broke which limit where, as a RunError on all ranks: it
-   * left the grid, a value is not finite, J <= 0 or J > 10, or |grad v| dt > 0.5.
-   * Collective; called when the survey has found a failure.
-   */
-  template <int dim>
-  [[noreturn]] void report_failure(Model<dim> &model, const unsigned int step, const double time, const double dt);
 
   /**
    * Watches the energy: what exceeds twice what was there or was put in can only
