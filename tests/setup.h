@@ -186,6 +186,7 @@ namespace Test
         condition->attach(grid);
       boundary.mark_slip_walls(1e-300, particles.n_stencil_nodes, grid);
       transfer->initialize(*kernel, particles);
+      smoothing.initialize(materials, *kernel, particles, grid);
       for (auto &traction : tractions.loads)
         traction->attach(grid, bodies, particles);
     }

@@ -22,13 +22,7 @@ namespace Talus
     place       = places;
     AssertDimension(place.size(), partitioner->locally_owned_size() + partitioner->n_ghost_indices());
 
-    // Pages that are never touched must not exist: memory from calloc, moved to the begin of a cache line.
-    constexpr std::size_t line = 64;
-    memory.reset(std::calloc(n_places * stride * sizeof(double) + line, 1));
-    if (memory == nullptr)
-      throw std::bad_alloc();
-    values = reinterpret_cast<double *>((reinterpret_cast<std::size_t>(memory.get()) + line - 1) / line * line);
-
+    allocate(n_places);
     owned.clear();
     copies.clear();
     unsigned int next = partitioner->locally_owned_size();
@@ -49,6 +43,29 @@ namespace Talus
       from += n;
     }
     requests.resize(owned.size() + copies.size());
+  }
+
+  template <int dim>
+  void NodalFields<dim>::reinit(const NodalFields &other)
+  {
+    partitioner = other.partitioner;
+    place       = other.place;
+    owned       = other.owned;
+    copies      = other.copies;
+    requests.resize(other.requests.size());
+    allocate(other.n_places);
+  }
+
+  template <int dim>
+  void NodalFields<dim>::allocate(const std::size_t n)
+  {
+    // Pages that are never touched must not exist: memory from calloc, moved to the begin of a cache line.
+    constexpr std::size_t line = 64;
+    n_places                   = n;
+    memory.reset(std::calloc(n_places * stride * sizeof(double) + line, 1));
+    if (memory == nullptr)
+      throw std::bad_alloc();
+    values = reinterpret_cast<double *>((reinterpret_cast<std::size_t>(memory.get()) + line - 1) / line * line);
   }
 
   template <int dim>

@@ -42,6 +42,9 @@ namespace Talus
     void reinit(const dealii::IndexSet &owned_nodes, const dealii::IndexSet &relevant_nodes, MPI_Comm communicator,
                 const std::vector<unsigned int> &places, const std::size_t n_places);
 
+    /** The same nodes at the same places as those of another, with memory and messages of their own. */
+    void reinit(const NodalFields &other);
+
     void clear();
     void clear_copies();
 
@@ -82,6 +85,8 @@ namespace Talus
     static MirrorFactors       make_mirror_factors();
     static const MirrorFactors mirror_factors;
 
+    void allocate(const std::size_t n_places);
+
     /** What one rank sends to another: these nodes, in this order, through its part of a buffer. */
     struct Message
     {
@@ -101,7 +106,8 @@ namespace Talus
 
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
     std::unique_ptr<void, Free>                          memory;
-    double                                              *values = nullptr;
+    double                                              *values   = nullptr;
+    std::size_t                                          n_places = 0;
     std::vector<unsigned int>                            place; // of each node
     std::vector<Message>                                 owned, copies; // what neighbours copy; what this rank copies
     std::vector<MPI_Request>                             requests;
