@@ -3,6 +3,7 @@
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <iostream>
 #include <numeric>
 
 namespace Talus
@@ -27,62 +28,6 @@ namespace Talus
       return refinements;
     }
   } // namespace
-
-  template <int dim>
-  Grid<dim>::Grid(const std::string &section, const Communicator &communicator) :
-    ParameterAcceptor(section), communicator(communicator),
-    triangulation(communicator, Triangulation<dim>::none,
-                  parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
-    dof_handler(triangulation), fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
-  {
-    const Patterns::List numbers(Patterns::Double(), dim, dim);
-    add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", prm,
-                  numbers);
-    add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", prm,
-                  numbers);
-    add_parameter("Spacing", spacing,
-                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", prm,
-                  Patterns::List(Patterns::Double(0), 0, dim));
-    add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", prm,
-                  Patterns::List(Patterns::Integer(1), 0, dim));
-  }
-
-  template <int dim>
-  void Grid<dim>::parse_parameters(ParameterHandler &)
-  {
-    const std::string &section = get_section_name();
-    if (spacing.empty() == cell_counts.empty())
-      throw EntryError(section, "Spacing", "give either 'Spacing' or 'Cells', and not both.");
-    if (!spacing.empty() && spacing.size() != 1 && spacing.size() != dim)
-      throw EntryError(section, "Spacing", "give one number or " + std::to_string(dim) + ".");
-    if (spacing.empty() && cell_counts.size() != dim)
-      throw EntryError(section, "Cells", "give " + std::to_string(dim) + " numbers.");
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double length = upper_corner[d] - lower_corner[d];
-      lower[d]            = lower_corner[d];
-      upper[d]            = upper_corner[d];
-      if (!(length > 0))
-        throw EntryError(section, "Upper corner", "it must lie above the lower corner in every direction.");
-      if (!spacing.empty())
-      {
-        const double wanted = spacing.size() == 1 ? spacing[0] : spacing[d];
-        if (!(wanted > 0))
-          throw EntryError(section, "Spacing", "it must be positive.");
-        const double count = std::round(length / wanted);
-        if (count < 1 || std::abs(count * wanted - length) > 1e-6 * wanted)
-          throw EntryError(section, "Spacing",
-                           "the box is " + std::to_string(length / wanted) + " spacings long in direction " +
-                             std::string(1, "xyz"[d]) + ". Move a corner so that it becomes a whole number.");
-        lattice.n_cells[d] = static_cast<int>(count);
-      }
-      else
-        lattice.n_cells[d] = cell_counts[d];
-      lattice.origin[d]    = lower[d];
-      lattice.h[d]         = length / lattice.n_cells[d];
-      lattice.inverse_h[d] = lattice.n_cells[d] / length;
-    }
-  }
 
   template <int dim>
   void Grid<dim>::create(const std::function<unsigned int(const CellIterator &)> &weight, const Reach &reach)
@@ -117,7 +62,8 @@ namespace Talus
     if (Utilities::MPI::n_mpi_processes(communicator) > 1)
     {
       const auto connection = triangulation.signals.weight.connect(
-        [&](const auto &cell, const auto) { return 1 + weight(CellIterator(cell)); });
+        // Material rules: cells without it are free but for their share of memory. p4est's weights have 31 bits.
+        [&](const auto &cell, const auto) { return 1 + 1000 * std::min(weight(CellIterator(cell)), 1u << 20); });
       triangulation.repartition();
       connection.disconnect();
     }

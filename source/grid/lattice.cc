@@ -1,7 +1,32 @@
+#include <talus/core/exceptions.h>
 #include <talus/grid/lattice.h>
+
+#include <cstdint>
+#include <limits>
 
 namespace Talus
 {
+  template <int dim>
+  void Lattice<dim>::resize_tables(const Index &lower, const Index &upper)
+  {
+    std::int64_t size = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      first[d]  = lower[d] - padding;
+      extent[d] = upper[d] - lower[d] + 1 + 2 * padding;
+      stride[d] = static_cast<int>(size);
+      // Both factors are below 2^31: their product is exact.
+      size *= extent[d];
+      AssertThrow(size <= std::numeric_limits<int>::max(),
+                  InputError("A rank's part of the grid spans more than 2^31 places. Take more ranks, a larger spacing "
+                             "or a smaller box."));
+    }
+    node.assign(size, missing);
+    cell.assign(size, missing);
+    owner.assign(size, missing);
+    slip_faces.assign(size, 0);
+  }
+
   template <int dim>
   unsigned int Lattice<dim>::node_at(const Index &index) const
   {

@@ -96,6 +96,7 @@ namespace Talus
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
     std::uint64_t              next_id      = 0;
+    constexpr std::uint64_t    n_ids        = std::numeric_limits<types::particle_index>::max();
     double                     largest_mass = 0;
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
@@ -104,9 +105,10 @@ namespace Talus
         check_inside(grid, body);
       body.first_id = next_id;
       next_id += body.shape->n_indices();
-      AssertThrow(
-        next_id <= std::numeric_limits<types::particle_index>::max(),
-        InputError("The bodies have more particles than this deal.II can number. Use one with 64-bit indices."));
+      AssertThrow(next_id <= n_ids,
+                  InputError("The bodies have " + std::to_string(next_id) +
+                             " lattice points, more than this deal.II can number (" + std::to_string(n_ids) +
+                             "). Use one with 64-bit indices, or fewer particles."));
       body_begin.push_back(body.first_id);
       body_material.push_back(body.material);
       for (const auto &cell : grid.triangulation.active_cell_iterators())

@@ -9,7 +9,7 @@ namespace Talus
 {
   using namespace dealii;
 
-  double hashed_jitter(const unsigned int seed, const unsigned int index, const unsigned int axis)
+  double hashed_jitter(const unsigned int seed, const std::uint64_t index, const unsigned int axis)
   {
     // Two rounds of the finaliser of SplitMix64 over the packed arguments.
     const auto mix = [](std::uint64_t z) {
@@ -21,6 +21,12 @@ namespace Talus
     const std::uint64_t hash = mix(mix((std::uint64_t(seed) << 34) ^ (std::uint64_t(axis) << 32)) ^ index);
     return static_cast<double>(hash >> 11) * 0x1p-52 - 1.;
   }
+
+  namespace
+  {
+    // Ids travel between ranks, and into tables, as doubles: whole numbers are exact to here.
+    constexpr double largest_number = 0x1p53;
+  } // namespace
 
   template <int dim>
   LatticeShape<dim>::LatticeShape(const std::string &section) : Shape<dim>(section)
@@ -56,22 +62,22 @@ namespace Talus
         throw EntryError(this->get_section_name(), "Shape",
                          "the body is empty: it has no extent in direction " + std::string(1, "xyz"[d]) + ".");
       // Equal boxes that fill the length exactly, as near to h/n as possible.
-      counts[d]  = std::max(1., std::round(length * points_per_cell / h[d]));
+      const double count = std::max(1., std::round(length * points_per_cell / h[d]));
+      n *= count;
+      if (!(count < std::numeric_limits<int>::max() && n < largest_number))
+        throw EntryError(this->get_section_name(), "Particles per cell and direction",
+                         "the body's lattice has more points than can be numbered, 2^31 along an axis and 2^53 in all. "
+                         "Take fewer, a larger spacing or a smaller body.");
+      counts[d]  = static_cast<int>(count);
       spacing[d] = length / counts[d];
       lower[d]   = corners.first[d] + offset[d] * spacing[d];
-      n *= counts[d];
     }
-    if (n > std::numeric_limits<types::particle_index>::max())
-      throw EntryError(this->get_section_name(), "Particles per cell and direction",
-                       "the body's lattice has more points than this deal.II can number (" +
-                         std::to_string(std::numeric_limits<types::particle_index>::max()) +
-                         "). Use a deal.II with 64-bit indices, or fewer particles.");
   }
 
   template <int dim>
-  unsigned int LatticeShape<dim>::n_indices() const
+  std::uint64_t LatticeShape<dim>::n_indices() const
   {
-    unsigned int n = 1;
+    std::uint64_t n = 1;
     for (const int count : counts)
       n *= count;
     return n;
@@ -105,8 +111,8 @@ namespace Talus
 
     for (auto k = begin; k[dim - 1] < end[dim - 1];)
     {
-      unsigned int index = 0;
-      Point<dim>   x;
+      std::uint64_t index = 0;
+      Point<dim>    x;
       for (int d = dim - 1; d >= 0; --d)
       {
         index = index * counts[d] + k[d];

@@ -84,17 +84,26 @@ namespace Talus
   }
 
   template <int dim>
-  typename Lattice<dim>::Index Particles<dim>::first_node(const unsigned int p) const
+  unsigned int Particles<dim>::place(const unsigned int p) const
   {
-    typename Lattice<dim>::Index first;
+    const auto &lattice  = grid->lattice;
+    int         entry    = 0;
+    bool        is_known = true;
     for (unsigned int d = 0; d < dim; ++d)
-      first[d] = static_cast<int>(
-        std::floor(grid->lattice.coordinate(this->component(this->position, d)[p], d) - stencil_shift));
-    return first;
+    {
+      const double coordinate = lattice.coordinate(this->component(this->position, d)[p], d);
+      const double index      = std::floor(coordinate - stencil_shift) - lattice.first[d];
+      is_known                = is_known && index >= 0 && index < lattice.extent[d];
+      entry += is_known ? static_cast<int>(index) * lattice.stride[d] : 0;
+    }
+    AssertThrow(is_known && coverage[entry],
+                RunError("Particle " + std::to_string(this->id[p]) + " at " + to_text(this->vector(this->position, p)) +
+                         " lies beyond the nodes that its rank knows. It must migrate, or the run end, before."));
+    return entry;
   }
 
   template <int dim>
-  unsigned int Particles<dim>::body_of(const types::particle_index id) const
+  unsigned int Particles<dim>::body_of(const std::uint64_t id) const
   {
     return std::upper_bound(body_begin.begin(), body_begin.end(), id) - body_begin.begin() - 1;
   }
@@ -195,8 +204,10 @@ namespace Talus
         this->column(c)[p] = arrivals[i][1 + c];
     }
     for (unsigned int i = 0; i < arrivals.size() && !brings_new_nodes; ++i)
-      brings_new_nodes =
-        !grid->is_active_around(first_node(i < n_filled ? leavers[i] : n_before + i - n_filled), n_stencil_nodes);
+    {
+      const unsigned int p = i < n_filled ? leavers[i] : n_before + i - n_filled;
+      brings_new_nodes     = !grid->is_active_around(lattice.table_entry(place(p)), n_stencil_nodes);
+    }
     if (this->material_begin.size() > 2)
     {
       // Materials must stay together, so that places are not free to choose.
@@ -241,44 +252,42 @@ namespace Talus
     // Counting sort by material and first node; particles are few for each, and mostly in order.
     const auto               &lattice = grid->lattice;
     const unsigned int        n_cells = lattice.cell.size(), n_materials = this->material_begin.size() - 1;
-    std::vector<unsigned int> begin(static_cast<std::size_t>(n_materials) * n_cells + 1, 0), key(this->size());
+    std::vector<unsigned int> begin(static_cast<std::size_t>(n_materials) * n_cells + 1, 0);
+    std::vector<std::size_t>  key(this->size());
     for (unsigned int p = 0; p < this->size(); ++p)
     {
       if (!is_gone.empty() && is_gone[p])
         continue;
-      const auto first = first_node(p);
-      Assert(lattice.is_in_table(first), ExcMessage("migrate() comes before sort()."));
-      key[p] = body_material[this->body[p]] * n_cells + lattice.table_index(first);
+      key[p] = static_cast<std::size_t>(body_material[this->body[p]]) * n_cells + place(p);
       ++begin[key[p] + 1];
     }
-    for (unsigned int k = 0; k + 1 < begin.size(); ++k)
+    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
       begin[k + 1] += begin[k];
     std::vector<unsigned int> order(begin.back()), next(begin.begin(), begin.end() - 1);
     for (unsigned int p = 0; p < this->size(); ++p)
       if (is_gone.empty() || !is_gone[p])
         order[next[key[p]]++] = p;
-    for (unsigned int k = 0; k + 1 < begin.size(); ++k)
+    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
       std::sort(order.begin() + begin[k], order.begin() + begin[k + 1],
                 [&](const unsigned int a, const unsigned int b) { return this->id[a] < this->id[b]; });
     for (unsigned int m = 0; m <= n_materials; ++m)
-      this->material_begin[m] = begin[m * n_cells];
+      this->material_begin[m] = begin[static_cast<std::size_t>(m) * n_cells];
     this->permute(order);
   }
 
   template <int dim>
   std::vector<char> Particles<dim>::stencil_beginnings() const
   {
-    const auto       &lattice = grid->lattice;
-    std::vector<char> begins(lattice.node.size(), 0);
+    std::vector<char> begins(grid->lattice.node.size(), 0);
     for (unsigned int p = 0; p < this->size(); ++p)
-    {
-      const auto first                   = first_node(p);
-      begins[lattice.table_index(first)] = 1;
-    }
+      begins[place(p)] = 1;
     if (reach.at_corners)
+    {
+      const auto &lattice = grid->lattice;
       Corners<dim>(*this, half_edges)
         .for_each(lattice, reach.shift, 0, this->size(),
                   [&](const unsigned int, const auto &index) { begins[lattice.table_index(index)] = 1; });
+    }
     return begins;
   }
 

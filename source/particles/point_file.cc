@@ -54,7 +54,7 @@ namespace Talus
           visitor(entry.second, entry.first, volumes[entry.second]);
       }
 
-      unsigned int n_indices() const override { return points.size(); }
+      std::uint64_t n_indices() const override { return points.size(); }
       std::string  position_entry() const override { return "File"; }
 
     private:

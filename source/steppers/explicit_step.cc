@@ -73,6 +73,9 @@ namespace Talus
   template <int dim>
   void Explicit<dim>::move_nodes(Model<dim> &model, const double time, const double dt)
   {
+    AssertThrow(!model.particles.needs_synchronise && model.particles.outside == Particles<dim>::none,
+                ExcMessage("Particles have strayed from their rank, or left the grid: the nodes would miss what they "
+                           "carry. Upkeep comes before the next step."));
     {
       const Timing::Scope scope(*timing, particle_to_grid);
       model.boundary.mark_slip_walls(time + dt, model.particles.n_stencil_nodes, model.grid);

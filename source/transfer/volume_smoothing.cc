@@ -23,9 +23,10 @@ namespace Talus
       using Number = Simd<native_width>;
 
       Passes(const Function &function, const Treatment<dim> &treatment, const MaterialRange &range,
-             const double reference_density, const unsigned int gradient, Particles<dim> &particles, Grid<dim> &grid) :
+             const double reference_density, const unsigned int gradient, Particles<dim> &particles,
+             const Lattice<dim> &lattice, NodalArray<2> &fields) :
         function(function),
-        treatment(treatment), range(range), reference(reference_density), grid(grid), lattice(grid.lattice),
+        treatment(treatment), range(range), reference(reference_density), lattice(lattice), fields(fields),
         position(particles.template components<dim>(particles.position)), J_p(particles.component(particles.F, 0)),
         g(particles.template components<dim>(gradient)), mass(particles.component(particles.mass, 0)),
         volume(particles.component(particles.volume, 0))
@@ -121,15 +122,15 @@ namespace Talus
         unsigned int at = stencil.first_node[l];
         for (unsigned int d = 0; d < dim; ++d)
           at += place(i, d) * lattice.stride[d];
-        return lattice.node[at] == Lattice<dim>::missing ? nullptr : grid.fields.at_place(at);
+        return lattice.node[at] == Lattice<dim>::missing ? nullptr : fields.at_place(at);
       }
 
       const Function           &function;
       const Treatment<dim>     &treatment;
       const MaterialRange      &range;
       const double              reference;
-      Grid<dim>                &grid;
       const Lattice<dim>       &lattice;
+      NodalArray<2>            &fields;
       std::array<double *, dim> position;
       double                   *J_p;
       std::array<double *, dim> g;
@@ -155,17 +156,20 @@ namespace Talus
 
   template <int dim>
   void VolumeSmoothing<dim>::initialize(const std::vector<std::unique_ptr<Material>> &materials,
-                                        const Kernel<dim> &kernel, Particles<dim> &particles, Grid<dim> &grid) const
+                                        const Kernel<dim> &kernel, Particles<dim> &particles, const Grid<dim> &grid)
   {
+    const auto smooths = [](const auto &material) { return material->smoothing_speed() > 0; };
+    if (std::any_of(materials.begin(), materials.end(), smooths))
+      fields.reinit(grid.nodes);
     for (unsigned int m = 0; m < materials.size(); ++m)
-      if (materials[m]->smoothing_speed() > 0)
+      if (smooths(materials[m]))
         smooth(*materials[m], material_range(particles, m, 0.), kernel, /* alpha = */ 0., particles,
                grid);
   }
 
   template <int dim>
   void VolumeSmoothing<dim>::apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel,
-                                   const double dt, Particles<dim> &particles, Grid<dim> &grid) const
+                                   const double dt, Particles<dim> &particles, const Grid<dim> &grid)
   {
     for (unsigned int m = 0; m < materials.size(); ++m)
     {
@@ -181,7 +185,7 @@ namespace Talus
 
   template <int dim>
   void VolumeSmoothing<dim>::smooth(const Material &material, const MaterialRange &range, const Kernel<dim> &kernel,
-                                    const double alpha, Particles<dim> &particles, Grid<dim> &grid) const
+                                    const double alpha, Particles<dim> &particles, const Grid<dim> &grid)
   {
     using Fields        = NodalFields<dim>;
     const auto form = kernel.lattice_form();
@@ -189,18 +193,19 @@ namespace Talus
     std::visit(
       [&](const auto &function) {
         Passes<dim, std::decay_t<decltype(function)>> passes(function, *treatment, range, material.density, gradient,
-                                                             particles, grid);
-        grid.clear();
+                                                             particles, grid.lattice, fields);
+        // Nodes that are not active are not read.
+        fields.clear(grid.active_nodes);
         passes.scatter();
-        grid.fields.add_copies_to_owners();
+        fields.add_copies_to_owners();
         for (const unsigned int i : grid.active_nodes)
         {
-          double      *node = grid.fields[i];
+          double      *node = fields[i];
           const double m    = node[Fields::mass];
           // An empty node counts next to nothing, whatever it says.
           node[mean<dim>] = m > grid.mass_floor ? node[mean<dim>] / m : 1.;
         }
-        grid.fields.update_copies();
+        fields.update_copies();
         passes.gather(alpha);
       },
       form->function);

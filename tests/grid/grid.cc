@@ -392,6 +392,20 @@ void grid_errors()
         "above the lower");
   error("spacing does not divide", set("Spacing", "0.3"), "Spacing", "3.333333 spacings long in direction x");
   error("zero spacing", set("Spacing", "0"), "Spacing", "must be positive");
+  // More than memory holds, and more than a number holds.
+  error("spacing that is far too small", set("Spacing", "1e-9"), "Spacing", "cells long in direction x, too many");
+  error("spacing beyond 32 bits", set("Spacing", "1e-10"), "Spacing", "cells long in direction x, too many");
+  error("spacing of no number", set("Spacing", "1e-300"), "Spacing", "Take a larger spacing or a smaller box.");
+  error("cells beyond memory", set("Cells", coordinates<dim>({{1 << 26, 1 << 26, 1 << 26}})), "Cells", "GB of memory");
+  error("long box", set("Spacing", "1") + set("Upper corner", coordinates<dim>({{3e8, 50, 50}})), "Spacing",
+        "GB of memory");
+  check_error<InputError>("tables beyond 31 bits", {"more than 2^31 places", "more ranks"}, [] {
+    Lattice<dim>                 lattice;
+    typename Lattice<dim>::Index lower, upper;
+    lower.fill(0);
+    upper.fill(dim == 2 ? 50000 : 1500);
+    lattice.resize_tables(lower, upper);
+  });
   Setup<dim> s(section("Grid", set("Spacing", coordinates<dim>({{0.25, 0.5, 1}}))));
   bool       is_right = true;
   for (unsigned int d = 0; d < dim; ++d)

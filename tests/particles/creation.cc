@@ -86,6 +86,38 @@ void lattice()
   check("jitter: axes", product, 4 * std::sqrt(1. / 9 / n));
 }
 
+/** Indices of points beyond 32 bits, and jitter that tells them apart. */
+template <int dim>
+void numbers_of_points()
+{
+  const double            n = dim == 2 ? 1 << 17 : 1 << 12; // along each axis of the unit box; 2^34 and 2^36 in all
+  Setup<dim>              setup(text(box<dim>(0, 1)));
+  auto                   &shape = *setup.bodies[0]->shape;
+  std::array<double, dim> h;
+  h.fill(2 / n);
+  shape.create(h);
+  check("number of points", shape.n_indices() / std::pow(n, dim) - 1, 1e-15);
+  Point<dim> lower, upper;
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    lower[d] = 1 - 3 / n;
+    upper[d] = 1;
+  }
+  double error = 0;
+  shape.visit(BoundingBox<dim>({lower, upper}), [&](const std::uint64_t index, const Point<dim> &x, const double) {
+    double expected = 0;
+    for (int d = dim - 1; d >= 0; --d)
+      expected = expected * n + std::floor(x[d] * n);
+    raise(error, static_cast<double>(index) - expected);
+  });
+  check("indices", error, 0.5);
+  check_true("jitter", hashed_jitter(1, 7, 0) != hashed_jitter(1, 7 + (1ull << 32), 0));
+  h.fill(1e-10);
+  check_error<EntryError>("too many along an axis",
+                          {"Particles per cell and direction", "more points than can be numbered"},
+                          [&] { shape.create(h); });
+}
+
 /** Counts of lattice points in balls and cylinders, counted here; their volume approaches that of the shape. */
 template <int dim>
 void round_bodies()
@@ -259,6 +291,7 @@ void body_errors()
   template void name<2>();                                                                                             \
   template void name<3>();
 INSTANTIATE(lattice)
+INSTANTIATE(numbers_of_points)
 INSTANTIATE(round_bodies)
 INSTANTIATE(point_file)
 INSTANTIATE(initial_state)

@@ -4,6 +4,7 @@
   template <int dim>                                                                                                   \
   void name();
 DECLARE(lattice)
+DECLARE(numbers_of_points)
 DECLARE(round_bodies)
 DECLARE(point_file)
 DECLARE(initial_state)
@@ -15,6 +16,8 @@ DECLARE(beyond_ghost_cells)
 DECLARE(lost)
 DECLARE(drift)
 DECLARE(outside)
+DECLARE(unknown_nodes)
+DECLARE(balance)
 DECLARE(surfaces)
 DECLARE(half_edges_of_shapes)
 DECLARE(ring)
@@ -26,6 +29,8 @@ int main(int argc, char **argv)
   return Test::run(argc, argv,
                    {{"lattice 2D", lattice<2>},
                     {"lattice 3D", lattice<3>},
+                    {"numbers of points 2D", numbers_of_points<2>},
+                    {"numbers of points 3D", numbers_of_points<3>},
                     {"round bodies 2D", round_bodies<2>},
                     {"round bodies 3D", round_bodies<3>},
                     {"point file 2D", point_file<2>},
@@ -48,6 +53,10 @@ int main(int argc, char **argv)
                     {"drift 3D", drift<3>},
                     {"outside 2D", outside<2>},
                     {"outside 3D", outside<3>},
+                    {"unknown nodes 2D", unknown_nodes<2>},
+                    {"unknown nodes 3D", unknown_nodes<3>},
+                    {"balance 2D", balance<2>},
+                    {"balance 3D", balance<3>},
                     {"surfaces 2D", surfaces<2>},
                     {"surfaces 3D", surfaces<3>},
                     {"half edges 2D", half_edges_of_shapes<2>},

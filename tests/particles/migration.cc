@@ -213,7 +213,7 @@ void drift()
     Setup<dim> setup(text<dim>(kernel));
     auto      &set = setup.particles;
     set.relocate();
-    check_true(kernel + ": stays at first", !set.needs_synchronise && set.outside == set.none);
+    check_true(kernel + ": stays at first", !set.needs_synchronise && set.outside.empty());
     const bool   is_alone = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
     const double h        = 0.125;
     // The rank on the left lets its particles go to the right, and the other way round.
@@ -224,7 +224,7 @@ void drift()
       set.component(set.position, 0)[0] = 0.5 + (is_left ? 1 : -1) * distance * h;
       set.relocate();
       check_true(kernel + ": " + std::to_string(distance) + " h beyond",
-                 set.needs_synchronise == (!is_alone && distance > limit) && set.outside == set.none);
+                 set.needs_synchronise == (!is_alone && distance > limit) && set.outside.empty());
       set.component(set.position, 0)[0] = before;
     }
     set.relocate();
@@ -232,7 +232,7 @@ void drift()
   }
 }
 
-/** The first particle outside is named; NaN is outside. */
+/** Particles outside are found; NaN is outside. */
 template <int dim>
 void outside()
 {
@@ -246,12 +246,51 @@ void outside()
       const double       other          = set.component(set.position, d)[p + 3];
       set.component(set.position, d)[p] = set.component(set.position, d)[p + 3] = x;
       set.relocate();
-      check_true("axis " + std::to_string(d) + ", x = " + std::to_string(x), set.outside == p);
+      check_true("axis " + std::to_string(d) + ", x = " + std::to_string(x),
+                 (set.outside == std::vector<unsigned int>{p, p + 3}));
       set.component(set.position, d)[p]     = before;
       set.component(set.position, d)[p + 3] = other;
     }
   set.relocate();
-  check_true("all inside", set.outside == set.none);
+  check_true("all inside", set.outside.empty());
+}
+
+/** A particle whose rank does not know its stencil's nodes cannot be sorted, nor make nodes active. */
+template <int dim>
+void unknown_nodes()
+{
+  Setup<dim> setup(text<dim>("quadratic B-spline"));
+  auto      &set      = setup.particles;
+  const bool is_alone = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  const bool is_left  = setup.position(3)[0] < 0.5;
+  for (const double x : {is_left ? 0.9 : 0.1, 7., -7., 1e30, -1e30, std::nan("")})
+  {
+    if (is_alone && x > 0 && x < 1)
+      continue;
+    const double before               = set.component(set.position, 0)[3];
+    set.component(set.position, 0)[3] = x;
+    const std::vector<std::string> words{"Particle " + std::to_string(set.id[3]),
+                                         "beyond the nodes that its rank knows"};
+    check_error<RunError>("sort, x = " + std::to_string(x), words, [&] { set.sort(); });
+    check_error<RunError>("activate, x = " + std::to_string(x), words, [&] { set.stencil_beginnings(); });
+    set.component(set.position, 0)[3] = before;
+  }
+  set.sort();
+  check_true("back again", is_canonical(setup));
+}
+
+/** Material decides who gets which cells: particles in a corner of a grid that is empty elsewhere are shared out. */
+template <int dim>
+void balance()
+{
+  const int    n = dim == 2 ? 32 : 16; // cells along an axis, of which a quarter is filled
+  Setup<dim>   setup(section("Grid", set("Cells", coordinates<dim>({{1. * n, 1. * n, 1. * n}}))) +
+                     section("Materials", set("Names", "soft") + section("soft", "")) +
+                     section("Bodies", set("Names", "corner") +
+                                         section("corner", set("Upper corner", coordinates<dim>({{0.25, 0.25, 0.25}})))));
+  const double n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), share = setup.particles.n_global / n_ranks;
+  // p4est keeps the 2^dim children of a cell together: their particles are what a rank may have too much.
+  check("particles beyond a rank's share", max(setup.particles.size() - share) / std::pow(4, dim), 1.);
 }
 
 #define INSTANTIATE(name)                                                                                              \
@@ -263,3 +302,5 @@ INSTANTIATE(beyond_ghost_cells)
 INSTANTIATE(lost)
 INSTANTIATE(drift)
 INSTANTIATE(outside)
+INSTANTIATE(unknown_nodes)
+INSTANTIATE(balance)

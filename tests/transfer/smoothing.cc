@@ -80,6 +80,19 @@ void smoothing()
       };
       const unsigned int gradient = field("gradient of the smoothed volume ratio");
 
+      // The grid's fields, which output shows, are left alone.
+      double     touched = 0;
+      auto      &fields  = setup.grid.fields;
+      const auto pattern = [](const unsigned int i, const unsigned int lane) { return 1. + i + 0.1 * lane; };
+      for (unsigned int i = 0; i < fields.n_local(); ++i)
+        for (unsigned int lane = 0; lane < fields.stride; ++lane)
+          fields[i][lane] = pattern(i, lane);
+      apply(h / c);
+      for (unsigned int i = 0; i < fields.n_local(); ++i)
+        for (unsigned int lane = 0; lane < fields.stride; ++lane)
+          raise(touched, fields[i][lane] - pattern(i, lane));
+      check(name + ": fields of the grid", touched, 1e-300);
+
       // A linear J with its gradient stays, and the gradient too.
       const auto linear = [&](const unsigned int p) { return 1 + slope<dim>() * setup.position(p); };
       set_J(setup, linear);

@@ -98,6 +98,9 @@ namespace Talus
     dealii::Point<dim> lower, upper;
 
   private:
+    /** Throws EntryError where the cells need more memory than there is, and says what much of it they need. Collective. */
+    void check_memory() const;
+
     void create_triangulation(const std::function<unsigned int(const CellIterator &)> &weight);
     void number_nodes();
     void fill_tables(const unsigned int n_layers);

@@ -155,22 +155,11 @@ namespace Talus
       return sum;
     }
 
-    /** Sets the box of the tables to [lower, upper] plus padding and clears them. */
-    void resize_tables(const Index &lower, const Index &upper)
-    {
-      int size = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        first[d]  = lower[d] - padding;
-        extent[d] = upper[d] - lower[d] + 1 + 2 * padding;
-        stride[d] = size;
-        size *= extent[d];
-      }
-      node.assign(size, missing);
-      cell.assign(size, missing);
-      owner.assign(size, missing);
-      slip_faces.assign(size, 0);
-    }
+    /**
+     * Sets the box of the tables to [lower, upper] plus padding and clears them. Throws InputError where a place would
+     * not fit into 31 bits.
+     */
+    void resize_tables(const Index &lower, const Index &upper);
 
     /** Sets the mirror images of what lies beyond the box. */
     void find_images();

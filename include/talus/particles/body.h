@@ -23,7 +23,7 @@ namespace Talus
     std::string                 name;
     unsigned int                material; // index
     std::unique_ptr<Shape<dim>> shape;
-    unsigned int                first_id   = 0;
+    std::uint64_t               first_id   = 0;
     bool                        is_clipped = false; // what lies outside the grid is left out
 
   private:

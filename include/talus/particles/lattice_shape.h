@@ -16,9 +16,9 @@ namespace Talus
   public:
     explicit LatticeShape(const std::string &section);
 
-    void         create(const std::array<double, dim> &h) override;
-    void         visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
-    unsigned int n_indices() const override;
+    void          create(const std::array<double, dim> &h) override;
+    void          visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
+    std::uint64_t n_indices() const override;
 
     /** Those of the lattice's boxes. */
     std::array<dealii::Tensor<1, dim>, dim> half_edges(const dealii::Point<dim> &x, const double volume) const override;
@@ -39,5 +39,5 @@ namespace Talus
   };
 
   /** A number in [-1, 1) that depends on nothing but its arguments. */
-  double hashed_jitter(const unsigned int seed, const unsigned int index, const unsigned int axis);
+  double hashed_jitter(const unsigned int seed, const std::uint64_t index, const unsigned int axis);
 } // namespace Talus

@@ -95,10 +95,13 @@ namespace Talus
     /** Throws RunError if a corner lies where its owner, this rank, does not know the nodes. */
     void check_corners_are_known();
 
-    /** Lattice index of the first node of a particle's stencil. */
-    typename Lattice<dim>::Index first_node(const unsigned int p) const;
+    /**
+     * Entry of the lattice's tables at which a particle's stencil begins. Throws where this rank does not know all
+     * nodes of the stencil: what the particle carries would be lost there.
+     */
+    unsigned int place(const unsigned int p) const;
 
-    unsigned int body_of(const dealii::types::particle_index id) const;
+    unsigned int body_of(const std::uint64_t id) const;
 
     /** Ranks of the cells of some particles. Collective where this rank does not know a cell. */
     std::vector<unsigned int> ranks_of(const std::vector<unsigned int> &particles) const;
@@ -113,8 +116,8 @@ namespace Talus
     std::unique_ptr<dealii::MappingCartesian<dim>>           mapping;
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
 
-    std::vector<unsigned int> body_begin; // first id of each body
-    std::vector<unsigned int> body_material;
+    std::vector<std::uint64_t> body_begin; // first id of each body
+    std::vector<unsigned int>  body_material;
 
     Reach             reach;
     std::vector<char> coverage; // places from which on all nodes within reach are known

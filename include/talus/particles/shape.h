@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 namespace Talus
@@ -22,7 +23,7 @@ namespace Talus
   public:
     using Point = dealii::Point<dim>;
     /** Receives the index of a point within its body, its position and its volume. */
-    using Visitor = std::function<void(const unsigned int index, const Point &x, const double volume)>;
+    using Visitor = std::function<void(const std::uint64_t index, const Point &x, const double volume)>;
 
     using dealii::ParameterAcceptor::ParameterAcceptor;
 
@@ -60,6 +61,6 @@ namespace Talus
     }
 
     /** All indices are below this number. */
-    virtual unsigned int n_indices() const = 0;
+    virtual std::uint64_t n_indices() const = 0;
   };
 } // namespace Talus

@@ -176,8 +176,8 @@ namespace Talus
       const auto lever = [&](const unsigned int d, const unsigned int k) {
         return gathers_B ? moments.moment[d][k].data()[l] : 0.;
       };
-      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1],
-                           stride_z = Fields::stride * lattice.stride[dim - 1];
+      const std::ptrdiff_t stride_y = std::ptrdiff_t(Fields::stride) * lattice.stride[1],
+                           stride_z = std::ptrdiff_t(Fields::stride) * lattice.stride[dim - 1];
       Groups along_x[n];
       for (unsigned int a = 0; a < n; ++a)
         along_x[a] = spread(weight(0, a), slope(0, a), lever(0, a));

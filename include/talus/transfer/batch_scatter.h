@@ -148,7 +148,7 @@ namespace Talus
                                                            const unsigned int size, Fields &fields)
     {
       const int            place    = stencil.first_node[l];
-      const std::ptrdiff_t stride_y = Fields::stride * lattice.stride[1];
+      const std::ptrdiff_t stride_y = std::ptrdiff_t(Fields::stride) * lattice.stride[1];
       double *const        first    = fields.at_place(place);
       if constexpr (dim == 2)
       {
@@ -172,7 +172,7 @@ namespace Talus
       }
       else
       {
-        const std::ptrdiff_t stride_z = Fields::stride * lattice.stride[dim - 1];
+        const std::ptrdiff_t stride_z = std::ptrdiff_t(Fields::stride) * lattice.stride[dim - 1];
         scatter_product(
           vectors, moments, stencil, l,
           [&](const unsigned int a, const unsigned int b, const unsigned int c, const Node &x, const Node &y) {

@@ -15,7 +15,8 @@ namespace Talus
    * with the speed s that the material asks for; without one there is neither pass nor field. The kernels are corrected
    * by separable least squares at all faces of the domain, whatever the run's treatment: fields that reproduce linear
    * functions keep sum m J, which is the volume, and a linear J. Where the pressure comes from J alone it is what lets
-   * rows of particles drift apart in J that nothing brings back: doc/quiet_floor.md. Test: tests/transfer/smoothing.cc.
+   * rows of particles drift apart in J that nothing brings back: doc/quiet_floor.md. The nodes' sums have an array of
+   * their own; the grid's fields stay those of the last step. Test: tests/transfer/smoothing.cc.
    */
   template <int dim>
   class VolumeSmoothing
@@ -28,17 +29,18 @@ namespace Talus
 
     /** Sets g of the initial state. Collective. */
     void initialize(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel,
-                    Particles<dim> &particles, Grid<dim> &grid) const;
+                    Particles<dim> &particles, const Grid<dim> &grid);
 
-    /** Smooths volume, F = diag(J, 1, 1) and stress; the grid's fields are overwritten. Collective. */
+    /** Smooths volume, F = diag(J, 1, 1) and stress. Collective. */
     void apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel, const double dt,
-               Particles<dim> &particles, Grid<dim> &grid) const;
+               Particles<dim> &particles, const Grid<dim> &grid);
 
   private:
     void smooth(const Material &material, const MaterialRange &range, const Kernel<dim> &kernel, const double alpha,
-                Particles<dim> &particles, Grid<dim> &grid) const;
+                Particles<dim> &particles, const Grid<dim> &grid);
 
     std::unique_ptr<Treatment<dim>> treatment;
+    NodalArray<2>                   fields;       // mass and mean J; empty where no material smooths
     unsigned int                    gradient = 0; // g [1/length]
   };
 } // namespace Talus

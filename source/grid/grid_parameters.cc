@@ -1,0 +1,125 @@
+#include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
+#include <talus/grid/grid.h>
+
+#include <iomanip>
+#include <iostream>
+#include <limits>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string to_text(const double number)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << number;
+      return text.str();
+    }
+
+    const std::string coarser = "Take a larger spacing or a smaller box.";
+  } // namespace
+
+  template <int dim>
+  Grid<dim>::Grid(const std::string &section, MPI_Comm communicator) :
+    ParameterAcceptor(section), communicator(communicator),
+    triangulation(communicator, Triangulation<dim>::none,
+                  parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
+    dof_handler(triangulation), fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
+  {
+    const Patterns::List numbers(Patterns::Double(), dim, dim);
+    add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", prm,
+                  numbers);
+    add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", prm,
+                  numbers);
+    add_parameter("Spacing", spacing,
+                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", prm,
+                  Patterns::List(Patterns::Double(0), 0, dim));
+    add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", prm,
+                  Patterns::List(Patterns::Integer(1), 0, dim));
+  }
+
+  template <int dim>
+  void Grid<dim>::parse_parameters(ParameterHandler &)
+  {
+    constexpr double   most    = 1 << 29; // an index and its mirror image must fit into an int
+    const std::string &section = get_section_name();
+    if (spacing.empty() == cell_counts.empty())
+      throw EntryError(section, "Spacing", "give either 'Spacing' or 'Cells', and not both.");
+    if (!spacing.empty() && spacing.size() != 1 && spacing.size() != dim)
+      throw EntryError(section, "Spacing", "give one number or " + std::to_string(dim) + ".");
+    if (spacing.empty() && cell_counts.size() != dim)
+      throw EntryError(section, "Cells", "give " + std::to_string(dim) + " numbers.");
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double length = upper_corner[d] - lower_corner[d];
+      lower[d]            = lower_corner[d];
+      upper[d]            = upper_corner[d];
+      if (!(length > 0))
+        throw EntryError(section, "Upper corner", "it must lie above the lower corner in every direction.");
+      double count = spacing.empty() ? cell_counts[d] : 0;
+      if (!spacing.empty())
+      {
+        const double wanted = spacing.size() == 1 ? spacing[0] : spacing[d];
+        if (!(wanted > 0))
+          throw EntryError(section, "Spacing", "it must be positive.");
+        count = std::round(length / wanted);
+        if (count <= most && (count < 1 || std::abs(count * wanted - length) > 1e-6 * wanted))
+          throw EntryError(section, "Spacing",
+                           "the box is " + std::to_string(length / wanted) + " spacings long in direction " +
+                             std::string(1, "xyz"[d]) + ". Move a corner so that it becomes a whole number.");
+      }
+      if (!(count <= most))
+        throw EntryError(section, spacing.empty() ? "Cells" : "Spacing",
+                         "the box is " + to_text(count) + " cells long in direction " + std::string(1, "xyz"[d]) +
+                           ", too many to be numbered. " + coarser);
+      lattice.n_cells[d]   = static_cast<int>(count);
+      lattice.origin[d]    = lower[d];
+      lattice.h[d]         = length / lattice.n_cells[d];
+      lattice.inverse_h[d] = lattice.n_cells[d] / length;
+    }
+    check_memory();
+  }
+
+  template <int dim>
+  void Grid<dim>::check_memory() const
+  {
+    // What deal.II's triangulation and numbers of nodes take at least: measured on grids of a million cells.
+    constexpr double bytes_per_cell = dim == 2 ? 600 : 1800;
+    double           n_cells = 1, n_nodes = 1, n_coarse = 1;
+    int              common = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      n_cells *= lattice.n_cells[d];
+      n_nodes *= lattice.n_cells[d] + 1.;
+      common |= lattice.n_cells[d];
+    }
+    common &= -common; // the largest power of two that divides all counts: p4est refines so often
+    for (const int count : lattice.n_cells)
+      n_coarse *= count / common;
+    // Every rank stores the coarse mesh, besides its own cells.
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const double wanted = bytes_per_cell * std::max(n_cells, n_coarse * n_ranks), has = physical_memory(communicator);
+    const std::string takes = "the grid's " + to_text(n_cells) + " cells take " + to_text(wanted / 1e9) +
+                              " GB at least, and there are " + to_text(has / 1e9) + " GB of memory. ";
+    if (wanted > has)
+      throw EntryError(get_section_name(), spacing.empty() ? "Cells" : "Spacing", takes + coarser);
+    if (n_nodes > std::numeric_limits<types::global_dof_index>::max())
+      throw EntryError(get_section_name(), spacing.empty() ? "Cells" : "Spacing",
+                       "the grid has " + to_text(n_nodes) +
+                         " nodes, more than this deal.II can number. Use one with 64-bit indices. " + coarser);
+    if (wanted > has / 2 && Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::cerr << "Warning: " << takes << '\n';
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template Grid<dim>::Grid(const std::string &, MPI_Comm);                                                             \
+  template void Grid<dim>::parse_parameters(ParameterHandler &);                                                       \
+  template void Grid<dim>::check_memory() const;
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
