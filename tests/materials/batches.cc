@@ -85,6 +85,7 @@ void batches()
         set("Softening rate", "20")}},
     {{"sand", "Drucker-Prager",
       elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1")}},
+    {{"dry sand", "Drucker-Prager", elastic + set("Friction angle", "35") + set("Dilatancy angle", "10")}},
     {{"fluid", "Newtonian fluid", set("Density", "1")}}};
   for (const auto &[name, type, entries] : laws)
     for (const unsigned int dim : {2, 3})

@@ -41,6 +41,16 @@ namespace drucker_prager
   void parameter_errors();
 } // namespace drucker_prager
 
+namespace gap
+{
+  void uniaxial_strain();
+  void cohesive();
+  void dilation();
+  void invariants();
+  void frames();
+  void forgotten();
+} // namespace gap
+
 namespace newtonian_fluid
 {
   void uniaxial_strain();
@@ -92,6 +102,12 @@ int main(int argc, char **argv)
                     {"Drucker-Prager: biaxial test", drucker_prager::biaxial_test},
                     {"Drucker-Prager: plane strain", drucker_prager::plane_strain},
                     {"Drucker-Prager: parameter errors", drucker_prager::parameter_errors},
+                    {"gap: uniaxial strain", gap::uniaxial_strain},
+                    {"gap: with cohesion", gap::cohesive},
+                    {"gap: dilation", gap::dilation},
+                    {"gap: invariants", gap::invariants},
+                    {"gap: frames", gap::frames},
+                    {"gap: switched off", gap::forgotten},
                     {"Newtonian fluid: uniaxial strain", newtonian_fluid::uniaxial_strain},
                     {"Newtonian fluid: simple shear", newtonian_fluid::simple_shear},
                     {"Newtonian fluid: no memory", newtonian_fluid::no_memory},

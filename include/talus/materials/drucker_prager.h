@@ -12,8 +12,16 @@ namespace Talus
    * The elastic trial stress, Eq. (28), returns to the cone by
    * @f[ \Delta\lambda = F / (G + 9 K \alpha \beta) @f]
    * (G: shear modulus), or to the apex, I_1 = kappa / alpha and s = 0, where that would make sqrt(J_2) < 0.
-   * State: equivalent plastic strain, the sum of sqrt(2/3) |dev d_p| dt = dlambda / sqrt(3), and
-   * volumetric plastic strain, the sum of tr(d_p) dt = 3 beta dlambda on the cone [1].
+   *
+   * Expansion beyond what shear dilates, at the apex, opens a *gap* g between the grains, and no pressure is borne
+   * before compression has closed it:
+   * @f[ \dot g = \mathrm{tr}\, d_p - 3 \beta \dot\lambda , \qquad g \ge 0 , \qquad
+   *     g > 0 \Rightarrow I_1 \ge 0 , \qquad \dot g < 0 \Rightarrow I_1 \le 0 . @f]
+   * A gap closes without work; it is the volume correction of Tampubolon et al. (2017) in rate form. An entry leaves
+   * it out.
+   *
+   * State: equivalent plastic strain, the sum of sqrt(2/3) |dev d_p| dt = dlambda / sqrt(3); volumetric plastic strain,
+   * the sum of tr(d_p) dt = 3 beta dlambda + dg; and the gap [1].
    * Throws nothing: any increment has a return.
    * Theory: doc/materials.md. Test: tests/materials/drucker_prager.cc.
    */
@@ -24,7 +32,7 @@ namespace Talus
 
     std::vector<std::string> state_names() const override
     {
-      return {"equivalent plastic strain", "volumetric plastic strain"};
+      return {"equivalent plastic strain", "volumetric plastic strain", "gap"};
     }
     void update(const MaterialRange &range) const override;
 
@@ -44,5 +52,7 @@ namespace Talus
     double friction_angle  = 30; // [degrees]
     double dilatancy_angle = 0;  // [degrees]
     double cohesion        = 0;  // [stress]
+
+    bool remembers_loosening = true;
   };
 } // namespace Talus
