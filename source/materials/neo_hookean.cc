@@ -45,6 +45,15 @@ namespace Talus
     });
   }
 
+  std::string NeoHookean::refusal(const std::array<double, 6> &initial_stress) const
+  {
+    if (initial_stress == std::array<double, 6>{})
+      return "";
+    return "the material '" + get_section_name().substr(std::string("/Materials/").size()) +
+           "' (neo-Hookean) has its stress from its deformation alone and would lose an initial stress in the first "
+           "step. Use 'linear elastic', or 'Initial stress = none' and let the body settle with 'Run/Local damping'.";
+  }
+
   namespace
   {
     const Register<Material, NeoHookean> registration("neo-Hookean", "compressible, finite strains");

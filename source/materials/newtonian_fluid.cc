@@ -4,6 +4,7 @@
 #include <talus/materials/point.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace Talus
@@ -48,7 +49,10 @@ namespace Talus
 
   void NewtonianFluid::wave_speeds(const MaterialRange &range, double *speeds) const
   {
-    std::fill_n(speeds, range.end - range.begin, sound_speed);
+    evaluate_points(range, speeds, [c = sound_speed, reference = density](const auto &point) {
+      using Number = std::decay_t<decltype(point.mass())>;
+      return c * sqrt(max(Number(1.), Number(reference * point.specific_volume())));
+    });
   }
 
   void NewtonianFluid::strain_energy_densities(const MaterialRange &range, double *densities) const
@@ -71,6 +75,22 @@ namespace Talus
       throw EntryError(get_section_name(), "Sound speed", message.str());
     }
     return initial;
+  }
+
+  std::string NewtonianFluid::refusal(const std::array<double, 6> &initial_stress) const
+  {
+    const double pressure = -(initial_stress[0] + initial_stress[1] + initial_stress[2]) / 3;
+    double       deviator = 0, largest = std::abs(pressure);
+    for (unsigned int c = 0; c < 6; ++c)
+    {
+      deviator = std::max(deviator, std::abs(initial_stress[c] + (c < 3 ? pressure : 0.)));
+      largest  = std::max(largest, std::abs(initial_stress[c]));
+    }
+    if (deviator <= 1e-12 * largest)
+      return "";
+    return "the material '" + get_section_name().substr(std::string("/Materials/").size()) +
+           "' (Newtonian fluid) bears nothing but pressure at rest, and would lose the rest of this stress in the first "
+           "step. Give equal normal stresses xx, yy, zz and no shear, or 'Initial stress = hydrostatic'.";
   }
 
   namespace

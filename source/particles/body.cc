@@ -60,6 +60,8 @@ namespace Talus
     if (!velocity_gradient.empty() && velocity_gradient.size() != dim * dim)
       throw EntryError(get_section_name(), "Velocity gradient",
                        "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
+    if (dim == 2 && stress_kind == "uniform" && (uniform_stress[4] != 0 || uniform_stress[5] != 0))
+      throw EntryError(get_section_name(), "Stress", "plane strain has no shear stresses xz, yz. Set them to 0.");
     if (is_layered() && !(unit_weight > 0))
       throw EntryError(get_section_name(), "Unit weight", "it must be positive: give density times gravity.");
   }
@@ -86,7 +88,10 @@ namespace Talus
     }
     for (unsigned int c = 0; c < velocity_gradient.size(); ++c)
       value(set.grad_v, c) = velocity_gradient[c];
-    const auto stress = initial_stress(x, material);
+    const auto        stress  = initial_stress(x, material);
+    const std::string refusal = material.refusal(stress);
+    if (!refusal.empty())
+      throw EntryError(get_section_name(), "Initial stress", refusal);
     for (unsigned int c = 0; c < set.n_stress; ++c)
       value(set.stress, c) = stress[c];
     value(set.volume, 0) = volume;
@@ -97,6 +102,8 @@ namespace Talus
       for (unsigned int c = 0; c < dim * dim; ++c)
         value(*field, c) = edges[c / dim][c % dim];
     }
+    if (material.carries_volume_only())
+      value(set.F, 0) = material.density * volume / value(set.mass, 0);
   }
 
   template <int dim>

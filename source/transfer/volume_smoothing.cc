@@ -4,7 +4,6 @@
 #include <talus/transfer/volume_smoothing.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Talus
 {
@@ -27,9 +26,9 @@ namespace Talus
              const double reference_density, const unsigned int gradient, Particles<dim> &particles, Grid<dim> &grid) :
         function(function),
         treatment(treatment), range(range), reference(reference_density), grid(grid), lattice(grid.lattice),
-        position(particles.template components<dim>(particles.position)),
-        F(particles.template components<dim * dim>(particles.F)), g(particles.template components<dim>(gradient)),
-        mass(particles.component(particles.mass, 0)), volume(particles.component(particles.volume, 0))
+        position(particles.template components<dim>(particles.position)), J_p(particles.component(particles.F, 0)),
+        g(particles.template components<dim>(gradient)), mass(particles.component(particles.mass, 0)),
+        volume(particles.component(particles.volume, 0))
       {
       }
 
@@ -80,7 +79,7 @@ namespace Talus
           const Number V     = batch.load(volume);
           const Number ratio = 1. + alpha * (mean_J * batch.load(mass) / (reference * V) - 1.);
           batch.store(volume, ratio * V);
-          store_matrix<dim>(batch, F, root(ratio) * load_matrix<dim>(batch, F));
+          batch.store(J_p, reference * (ratio * V) / batch.load(mass)); // F = diag(J, 1, 1)
         });
       }
 
@@ -91,17 +90,6 @@ namespace Talus
       static unsigned int place(const unsigned int i, const unsigned int d)
       {
         return d == 0 ? i % n : (d == 1 ? i / n % n : i / (n * n));
-      }
-
-      /** The stretch in each direction that changes the volume by `ratio`. */
-      static Number root(const Number &ratio)
-      {
-        if constexpr (dim == 2)
-          return sqrt(ratio);
-        Number result;
-        for (unsigned int l = 0; l < native_width; ++l)
-          result.set(l, std::cbrt(ratio.data()[l]));
-        return result;
       }
 
       /** Calls `body(batch, stencil)` for all particles; all stencils are lists. */
@@ -136,17 +124,17 @@ namespace Talus
         return lattice.node[at] == Lattice<dim>::missing ? nullptr : grid.fields.at_place(at);
       }
 
-      const Function                 &function;
-      const Treatment<dim>           &treatment;
-      const MaterialRange            &range;
-      const double                    reference;
-      Grid<dim>                      &grid;
-      const Lattice<dim>             &lattice;
-      std::array<double *, dim>       position;
-      std::array<double *, dim * dim> F;
-      std::array<double *, dim>       g;
-      const double                   *mass;
-      double                         *volume;
+      const Function           &function;
+      const Treatment<dim>     &treatment;
+      const MaterialRange      &range;
+      const double              reference;
+      Grid<dim>                &grid;
+      const Lattice<dim>       &lattice;
+      std::array<double *, dim> position;
+      double                   *J_p;
+      std::array<double *, dim> g;
+      const double             *mass;
+      double                   *volume;
     };
   } // namespace
 

@@ -113,7 +113,10 @@ namespace newtonian_fluid
   {
     auto p   = point();
     p.volume = 0.7;
-    check("wave speed", p.wave_speed() - c, 0.);
+    check("wave speed, expanded", p.wave_speed() - c * std::sqrt(rho * 0.7), 1e-14); // m = 1
+    p.volume = 0.3;
+    check("wave speed, compressed", p.wave_speed() - c, 0.);
+    p.volume = 0.7;
     check("rest stress ratio", p.material->rest_stress_ratio() - 1, 0.);
     check("kinematic viscosity", p.material->kinematic_viscosity() - mu / rho, 1e-15);
     p.mass = p.material->initial_density(10.) * p.volume;
@@ -133,6 +136,10 @@ namespace newtonian_fluid
     error("Viscosity", "-1", "must not be negative");
     error("Sound speed", "0", "ten times the greatest velocity");
     error("Density", "-1", "must be positive");
+    const auto refusal = [](const std::array<double, 6> &stress) { return point().material->refusal(stress); };
+    check_true("starts with pressure", refusal({{-7, -7, -7, 0, 0, 0}}).empty() && refusal({}).empty());
+    check_true("not with a deviator", refusal({{-7, -7, -6, 0, 0, 0}}).find("hydrostatic") != std::string::npos);
+    check_true("not with shear", refusal({{-7, -7, -7, 0, 0, 1}}).find("no shear") != std::string::npos);
     check_error<EntryError>("too much tension", {"/Materials/m: Sound speed", "-75", "Raise the sound speed"},
                             [] { point().material->initial_density(-75.); });
   }

@@ -170,7 +170,8 @@ void initial_state()
                            set("Velocity gradient", dim == 2 ? "1, 2, 3, 4" : "1, 2, 3, 4, 5, 6, 7, 8, 9");
   double error = 0;
   {
-    Setup<dim> setup(text(body + set("Initial stress", "uniform") + set("Stress", "1, 2, 3, 4, 5, 6")));
+    Setup<dim> setup(text(body + set("Initial stress", "uniform") +
+                          set("Stress", dim == 2 ? "1, 2, 3, 4, 0, 0" : "1, 2, 3, 4, 5, 6")));
     auto      &set = setup.particles;
     for (unsigned int p = 0; p < set.size(); ++p)
     {

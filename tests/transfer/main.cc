@@ -21,6 +21,7 @@ DECLARE(projection_elsewhere)
 DECLARE(mirror_and_whole)
 DECLARE(mirror_reaction)
 DECLARE(smoothing)
+DECLARE(stretched_fluid)
 DECLARE(traction_sums)
 DECLARE(traction_work)
 DECLARE(traction_errors)
@@ -72,6 +73,8 @@ int main(int argc, char **argv)
                     {"mirror: reaction 3D", mirror_reaction<3>},
                     {"smoothing of J 2D", smoothing<2>},
                     {"smoothing of J 3D", smoothing<3>},
+                    {"stretched fluid 2D", stretched_fluid<2>},
+                    {"stretched fluid 3D", stretched_fluid<3>},
                     {"traction sums 2D", traction_sums<2>},
                     {"traction sums 3D", traction_sums<3>},
                     {"traction work 2D", traction_work<2>},

@@ -59,6 +59,17 @@ namespace Talus
     /** Density in the initial state at a pressure that is there from the start [mass/volume]. */
     virtual double initial_density(const double /* pressure */) const { return density; }
 
+    /**
+     * Why the material cannot start with a stress (xx, yy, zz, xy, xz, yz), and what to do; empty: it can.
+     */
+    virtual std::string refusal(const std::array<double, 6> & /* initial_stress */) const { return ""; }
+
+    /**
+     * True for a law that asks nothing but the volume: F is then not integrated but diag(J, 1, 1) with J = density
+     * V / m. det F of a particle that is stretched on and on is the difference of ever greater products.
+     */
+    virtual bool carries_volume_only() const { return false; }
+
     /** A particle that has expanded beyond this volume ratio J has not stayed in one piece: the run has failed [1]. */
     virtual double largest_volume_ratio() const { return 10; }
 

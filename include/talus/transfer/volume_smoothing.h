@@ -30,7 +30,7 @@ namespace Talus
     void initialize(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel,
                     Particles<dim> &particles, Grid<dim> &grid) const;
 
-    /** Smooths volume, deformation gradient and stress; the grid's fields are overwritten. Collective. */
+    /** Smooths volume, F = diag(J, 1, 1) and stress; the grid's fields are overwritten. Collective. */
     void apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel, const double dt,
                Particles<dim> &particles, Grid<dim> &grid) const;
 
