@@ -95,7 +95,9 @@ namespace Talus
           for (const unsigned int i : this->nodes[f])
             this->set(i, id / 2, 0.);
           // Of two conditions on one face the first has it.
-          this->reaction[id / 2] += std::exchange(grid.fields.mirrored_force[id], 0.);
+          const double mirrored = std::exchange(grid.fields.mirrored_force[id], 0.);
+          this->reaction[id / 2] += mirrored;
+          this->nodal_force[id / 2] += mirrored;
         }
       }
     };

@@ -3,10 +3,12 @@
 #include <talus/postprocess/grid_output.h>
 #include <talus/postprocess/output.h>
 #include <talus/postprocess/particle_output.h>
+#include <talus/postprocess/vtu.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <fstream>
+#include <sstream>
 
 namespace Talus
 {
@@ -17,7 +19,7 @@ namespace Talus
     // An output that round-off puts this part of an interval too early is in time.
     constexpr double tolerance = 1e-6;
 
-    /** Whether the file ends as a VTU file must: deal.II's parallel writer may not notice a full disk. */
+    /** Whether the file ends as a VTU file must: a parallel file system may not notice a full disk. */
     bool is_complete_vtu(const std::string &path)
     {
       const std::string end = "</VTKFile>";
@@ -39,9 +41,10 @@ namespace Talus
     add_parameter("Final state", with_final_state, "Write the state at the end of the run, whatever the intervals.");
     add_parameter("Statistics interval", statistics_interval,
                   "Steps between two rows of statistics.csv and probes.csv [1].", prm, Patterns::Integer(1));
-    add_parameter("Particle fields", field_names,
-                  "Fields of the particles to write, beside id and body: stored ones (velocity, stress, ...), "
-                  "displacement, von Mises stress, pressure, density, volume ratio, kinetic energy density.");
+    add_parameter(
+      "Particle fields", field_names,
+      "Fields of the particles to write, beside id, body and material: stored ones (velocity, stress, ...), "
+      "displacement, von Mises stress, pressure, density, volume ratio, kinetic energy density.");
     add_parameter("Grid", with_grid, "Write mass and velocity of the nodes as well.");
     add_parameter("CSV", with_csv, "Write the particles as a CSV table as well.");
   }
@@ -68,6 +71,10 @@ namespace Talus
   void Output<dim>::check(const WorkingSet<dim> &particles)
   {
     fields = select_particle_fields(particles, field_names, get_section_name(), "Particle fields");
+    // These are always written.
+    fields.erase(std::remove_if(fields.begin(), fields.end(),
+                                [](const auto &field) { return field.name == "body" || field.name == "material"; }),
+                 fields.end());
   }
 
   template <int dim>
@@ -118,19 +125,20 @@ namespace Talus
     DataOutBase::VtkFlags flags(times.back(), last_step, /* print_date_and_time = */ false,
                                 DataOutBase::VtkFlags::best_speed);
     flags.physical_units = units;
-    data.set_flags(flags);
 
     const std::string final_name = path + "/" + file_name(name, times.size() - 1, ".vtu");
     const std::string temporary  = final_name + ".tmp";
     const RunError    failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
-    try
-    {
-      data.write_vtu_in_parallel(temporary, communicator);
-    }
-    catch (const ExceptionBase &)
-    {
-      throw failure;
-    }
+    // Rank after rank: the head, a piece of each, the foot.
+    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+    std::ostringstream head, foot;
+    if (my_rank == 0)
+      DataOutBase::write_vtu_header(head, flags);
+    if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
+      DataOutBase::write_vtu_footer(foot);
+    const std::string piece =
+      vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags, "id");
+    AssertThrow(write_in_parallel(temporary, head.str() + piece + foot.str(), communicator), failure);
     run_on_root(
       [&] {
         AssertThrow(is_complete_vtu(temporary), failure);

@@ -51,6 +51,7 @@ namespace Talus
                                                                           {"deformation gradient", "1"},
                                                                           {"stress", "stress"},
                                                                           {"strain", "1"},
+                                                                          {"gap", "1"},
                                                                           {"mass", "mass"},
                                                                           {"volume", "volume"},
                                                                           {"affine moment", "length^2/time"}};
@@ -114,6 +115,8 @@ namespace Talus
         fields.push_back({name, unit, component_names(name, dim, n), n == dim, evaluate});
       };
 
+      add("body", "1", 1, [](const Set &set, const unsigned int p, double *value) { *value = set.body[p]; });
+      add("material", "1", 1, [](const Set &set, const unsigned int p, double *value) { *value = set.material_of(p); });
       add("displacement", "length", dim, [](const Set &set, const unsigned int p, double *u) {
         for (unsigned int d = 0; d < dim; ++d)
           u[d] = set.component(set.position, d)[p] - set.component(set.initial_position, d)[p];

@@ -14,7 +14,7 @@ namespace Talus
   void ParticleOutput<dim>::build_patches(const WorkingSet<dim>                 &particles,
                                           const std::vector<ParticleField<dim>> &fields)
   {
-    names = {"id", "body"};
+    names = {"id", "body", "material"};
     vectors.clear();
     physical_units.clear();
     for (const auto &field : fields)
@@ -45,7 +45,8 @@ namespace Talus
         patch.vertices[0][d] = x[d][p];
       values[0]      = particles.id[p];
       values[1]      = particles.body[p];
-      unsigned int c = 2;
+      values[2]      = particles.material_of(p);
+      unsigned int c = 3;
       for (const auto &field : fields)
       {
         field.evaluate(particles, p, &values[c]);
@@ -59,20 +60,22 @@ namespace Talus
 
   namespace
   {
-    /** The table of this rank's particles, column by column: id, position, fields. */
+    /** The table of this rank's particles, column by column: id, body, material, position, fields. */
     template <int dim>
     std::vector<std::vector<double>> columns_of(const WorkingSet<dim>                 &particles,
                                                 const std::vector<ParticleField<dim>> &fields)
     {
       const auto                       x = particles.template components<dim>(particles.position);
-      std::vector<std::vector<double>> columns(1 + dim + n_components(fields), std::vector<double>(particles.size()));
+      std::vector<std::vector<double>> columns(3 + dim + n_components(fields), std::vector<double>(particles.size()));
       std::vector<double>              values(columns.size());
       for (unsigned int p = 0; p < particles.size(); ++p)
       {
         values[0] = particles.id[p];
+        values[1] = particles.body[p];
+        values[2] = particles.material_of(p);
         for (unsigned int d = 0; d < dim; ++d)
-          values[1 + d] = x[d][p];
-        unsigned int c = 1 + dim;
+          values[3 + d] = x[d][p];
+        unsigned int c = 3 + dim;
         for (const auto &field : fields)
         {
           field.evaluate(particles, p, &values[c]);
@@ -87,9 +90,9 @@ namespace Talus
     template <int dim>
     void write_header(std::ostream &out, const std::vector<ParticleField<dim>> &fields, const double time)
     {
-      std::string units = "# time ", names = "id";
+      std::string units = "# time ", names = "id,body,material";
       append_number(units, time);
-      units += " [time]; units: id [1]";
+      units += " [time]; units: id [1], body [1], material [1]";
       for (unsigned int d = 0; d < dim; ++d)
       {
         units += std::string(", ") + "xyz"[d] + " [length]";

@@ -7,16 +7,35 @@ import struct
 import zlib
 
 
+def decode(kind, body):
+    """The numbers of a compressed base64 array, as deal.II writes it."""
+    body = body.strip()
+    # Four 32-bit numbers head the one block: count, size, size of the last block, compressed size.
+    header = struct.unpack("<4I", base64.b64decode(body[:24])[:16])
+    data = zlib.decompress(base64.b64decode(body[24:]))
+    assert len(data) == header[1]
+    size, letter = (4, "f") if kind == "Float32" else (8, "d")
+    return struct.unpack(f"<{len(data) // size}{letter}", data)
+
+
+ARRAY = r'<DataArray type="(Float32|Float64)"([^>]*)format="binary">\s*([^<]*)</DataArray>'
+
+
 def numbers_of_vtu(text):
-    """All floating point numbers of a VTU file with compressed base64 arrays, as deal.II writes it."""
-    for kind, body in re.findall(r'<DataArray type="(Float32|Float64)"[^>]*format="binary">\s*([^<]*)</DataArray>', text):
-        body = body.strip()
-        # Four 32-bit numbers head the one block: count, size, size of the last block, compressed size.
-        header = struct.unpack("<4I", base64.b64decode(body[:24])[:16])
-        data = zlib.decompress(base64.b64decode(body[24:]))
-        assert len(data) == header[1]
-        size, letter = (4, "f") if kind == "Float32" else (8, "d")
-        yield from struct.unpack(f"<{len(data) // size}{letter}", data)
+    """All floating point numbers of a VTU file."""
+    for kind, _, body in re.findall(ARRAY, text):
+        yield from decode(kind, body)
+
+
+def arrays_of_vtu(path):
+    """The floating point arrays of a VTU file by name, the pieces of all ranks one after the other; "points" has no name."""
+    with open(path) as file:
+        text = file.read()
+    arrays = {}
+    for kind, attributes, body in re.findall(ARRAY, text):
+        name = re.search(r'Name="([^"]*)"', attributes)
+        arrays.setdefault(name[1] if name else "points", []).extend(decode(kind, body))
+    return arrays
 
 
 def problems_in_csv(text):

@@ -147,8 +147,8 @@ namespace
     const unsigned int n_cells = 16 * Utilities::fixed_power<dim - 1>(4);
     check_true("grid cells with their corners" + d,
                count_points(run.output.directory() + "/grid_00001.vtu") == n_cells * (1 << dim));
-    for (const char *name :
-         {"\"id\"", "\"body\"", "\"velocity\" NumberOfComponents=\"3\"", "\"stress_xy\"", "\"pressure\""})
+    for (const char *name : {"\"id\"", "\"body\"", "\"material\"", "\"velocity\" NumberOfComponents=\"3\"",
+                             "\"stress_xy\"", "\"pressure\""})
       check_true(std::string("particles have ") + name + d, contains(file, std::string("Name=") + name));
     check_true("and nothing else" + d, !contains(file, "displacement"));
     for (const char *name : {"\"mass\"", "\"velocity\" NumberOfComponents=\"3\""})
@@ -199,7 +199,7 @@ void test_vtu()
     const auto &patch = data.get_patches()[p];
     error += std::abs(patch.vertices[0][0] - particles.component(particles.position, 0)[p]) +
              std::abs(patch.vertices[0][1] - particles.component(particles.position, 1)[p]) +
-             std::abs(patch.data(0, 0) - particles.id[p]) + std::abs(patch.data(3, 0) - (2. + particles.id[p]));
+             std::abs(patch.data(0, 0) - particles.id[p]) + std::abs(patch.data(4, 0) - (2. + particles.id[p]));
   }
   check_true("each point has its particle's values", data.get_patches().size() == particles.size() && error == 0);
   check_throws<EntryError>("an unknown field", "Choices: position, velocity", [] {

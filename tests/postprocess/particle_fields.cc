@@ -128,6 +128,9 @@ void test_fields()
   check_stress(space);
   check_others(plane);
   check_others(space);
+  plane.material_begin = {0, 0, 1};
+  plane.body[0]        = 3;
+  check_true("body and material", evaluate(plane, "body")[0] == 3 && evaluate(plane, "material")[0] == 1);
   check_kinematics(plane);
   check_kinematics(space);
   check_names<2>("velocity_x velocity_y stress_xx stress_yy stress_zz stress_xy velocity_gradient_xx "
@@ -175,7 +178,8 @@ namespace
 
     const auto table = lines(file);
     check_true("units come first" + d,
-               table[0].find("# time 0.10000000000000001 [time]; units: id [1], x [length]") == 0);
+               table[0].find("# time 0.10000000000000001 [time]; units: id [1], body [1], material [1], x [length]") ==
+                 0);
     check_true("and hold each column's" + d, table[0].find(", stress_xy [stress]") != std::string::npos);
     check_true("names of the columns" + d, table[1] == header);
     check_true("a row for each particle" + d, table.size() == run.particles.n_global + 2);
@@ -188,13 +192,13 @@ namespace
       n_disorder += id <= previous;
       previous = id;
       for (unsigned int k = 0; k < dim; ++k)
-        error = std::max(error, std::abs(row[1 + dim + k] - std::sqrt(1. + k + id)));
+        error = std::max(error, std::abs(row[3 + dim + k] - std::sqrt(1. + k + id)));
       for (unsigned int c = 0; c < run.particles.n_stress; ++c)
-        error = std::max(error, std::abs(row[1 + 2 * dim + c] + 1. / (1. + c + id)));
+        error = std::max(error, std::abs(row[3 + 2 * dim + c] + 1. / (1. + c + id)));
       // Lattice of points at 1/8 + k/4 with 16 points along x, 4 along the others, x first.
       const unsigned int k = static_cast<unsigned int>(id);
-      error                = std::max(error, std::abs(row[1] - (k % 16 + .5) / 4));
-      error                = std::max(error, std::abs(row[2] - (k / 16 % 4 + .5) / 4));
+      error                = std::max(error, std::abs(row[3] - (k % 16 + .5) / 4));
+      error                = std::max(error, std::abs(row[4] - (k / 16 % 4 + .5) / 4));
     }
     check_true("sorted by id" + d, n_disorder == 0);
     check("each particle has its own values" + d, error, 1e-15);
@@ -203,6 +207,7 @@ namespace
 
 void test_particle_csv()
 {
-  check_csv<2>("id,x,y,velocity_x,velocity_y,stress_xx,stress_yy,stress_zz,stress_xy");
-  check_csv<3>("id,x,y,z,velocity_x,velocity_y,velocity_z,stress_xx,stress_yy,stress_zz,stress_xy,stress_xz,stress_yz");
+  check_csv<2>("id,body,material,x,y,velocity_x,velocity_y,stress_xx,stress_yy,stress_zz,stress_xy");
+  check_csv<3>(
+    "id,body,material,x,y,z,velocity_x,velocity_y,velocity_z,stress_xx,stress_yy,stress_zz,stress_xy,stress_xz,stress_yz");
 }

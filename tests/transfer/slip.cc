@@ -433,6 +433,7 @@ void mirror_reaction()
         const double reaction = sum(setup.boundary.conditions[0]->reaction[1]);
         check(kernel + (is_plain ? ", plain" : ", batched") + ", face " + std::to_string(id),
               reaction - (id == 2 ? -2. : 2.), 1e-12);
+        check("  nodal force", sum(setup.boundary.conditions[0]->nodal_force[1]) - reaction, 1e-12);
         double v = 0;
         for (unsigned int p = 0; p < setup.particles.size(); ++p)
           raise(v, velocity(setup, p).norm());

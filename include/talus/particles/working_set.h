@@ -4,6 +4,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/particle.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -97,6 +98,12 @@ namespace Talus
       for (unsigned int c = 0; c < dim * dim; ++c)
         value[c / dim][c % dim] = component(field, c)[p];
       return value;
+    }
+
+    /** Number of a particle's material. */
+    unsigned int material_of(const unsigned int p) const
+    {
+      return std::upper_bound(material_begin.begin(), material_begin.end(), p) - material_begin.begin() - 1;
     }
 
     // Fields that every run has; tensors row by row.

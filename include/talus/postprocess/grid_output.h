@@ -14,7 +14,9 @@ namespace Talus
     /** Reads the nodes this rank owns and brings their values to its neighbours. Collective. */
     explicit GridOutput(const Grid<dim> &grid);
 
-  protected:
+    using dealii::DataOut<dim>::get_patches;
+    using dealii::DataOut<dim>::get_dataset_names;
+
     // The velocity's components are scalars for the scalar DoFHandler; here they become a vector.
     std::vector<std::tuple<unsigned int, unsigned int, std::string,
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>

@@ -23,7 +23,7 @@ namespace Talus
   };
 
   /**
-   * All quantities that a run can write: every field of `particles` and, derived,
+   * All quantities that a run can write: every field of `particles` and, derived, body, material,
    * displacement, von Mises stress, pressure, density, volume ratio, deviatoric
    * strain, vorticity and kinetic energy density. The result refers to fields by number, not to `particles`.
    */

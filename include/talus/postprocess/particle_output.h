@@ -8,7 +8,7 @@ namespace Talus
 {
   /**
    * Particles as a cloud of points for deal.II's writers, taken from the working
-   * set: id, body and the chosen fields. A vector field stays a vector, a tensor
+   * set: id, body, material and the chosen fields. A vector field stays a vector, a tensor
    * becomes named scalars (stress_xx, ...).
    */
   template <int dim>
@@ -20,7 +20,6 @@ namespace Talus
     /** The units of the data sets, for VtkFlags. */
     const std::map<std::string, std::string> &units() const { return physical_units; }
 
-  protected:
     const std::vector<dealii::DataOutBase::Patch<0, dim>> &get_patches() const override { return patches; }
     std::vector<std::string>                               get_dataset_names() const override { return names; }
     std::vector<std::tuple<unsigned int, unsigned int, std::string,
@@ -40,7 +39,7 @@ namespace Talus
   };
 
   /**
-   * Writes all particles of all ranks into one table, sorted by id: id, x, y (, z)
+   * Writes all particles of all ranks into one table, sorted by id: id, body, material, x, y (, z)
    * and the components of `fields`. The first line is a comment with the units,
    * the second holds the names. Throws RunError on all ranks. Collective.
    */

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <deal.II/base/data_out_base.h>
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+namespace Talus
+{
+  /**
+   * deal.II's text of one rank's part of a VTU file, with places as Float64: in single precision particles .25 m apart
+   * at map coordinates of 4.6e6 m share their places. So are the data called `exact`, whole numbers that single
+   * precision would round beyond 2^24. Test: tests/postprocess/vtu.cc.
+   */
+  template <int dim, int spacedim>
+  std::string vtu_piece(
+    const std::vector<dealii::DataOutBase::Patch<dim, spacedim>> &patches, const std::vector<std::string> &names,
+    const std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                                 dealii::DataComponentInterpretation::DataComponentInterpretation>> &ranges,
+    const dealii::DataOutBase::VtkFlags &flags, const std::string &exact);
+
+  /** Writes the parts of all ranks, one after the other, into a file. False on all ranks where that fails. Collective.
+   */
+  bool write_in_parallel(const std::string &path, const std::string &part, MPI_Comm communicator);
+} // namespace Talus

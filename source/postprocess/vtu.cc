@@ -1,0 +1,134 @@
+#include <talus/postprocess/vtu.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <sstream>
+
+#include <zlib.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string base64(const void *data, const std::size_t n_bytes)
+    {
+      const auto *begin = static_cast<const unsigned char *>(data);
+      return Utilities::encode_base64(std::vector<unsigned char>(begin, begin + n_bytes));
+    }
+
+    /** What stands in a DataArray: a head of block count, size, size of the last block, compressed size; the block. */
+    std::string encode(const std::vector<double> &values)
+    {
+      const uLong       n_bytes = values.size() * sizeof(double);
+      std::vector<char> block(compressBound(n_bytes));
+      uLong             n_compressed = block.size();
+      const int         status       = compress2(reinterpret_cast<Bytef *>(block.data()), &n_compressed,
+                                                 reinterpret_cast<const Bytef *>(values.data()), n_bytes, Z_BEST_SPEED);
+      AssertThrow(status == Z_OK, ExcInternalError());
+      const std::array<std::uint32_t, 4> head = {{1, static_cast<std::uint32_t>(n_bytes),
+                                                  static_cast<std::uint32_t>(n_bytes),
+                                                  static_cast<std::uint32_t>(n_compressed)}};
+      return base64(head.data(), sizeof(head)) + base64(block.data(), n_compressed) + "\n";
+    }
+
+    /** Makes an array of single numbers one of these doubles: the first that follows `tag`, which holds `mark`. */
+    void replace_array(std::string &text, const std::string &tag, const std::string &mark,
+                       const std::vector<double> &values)
+    {
+      const auto marked = text.find(mark);
+      if (marked == std::string::npos) // a rank without patches
+        return;
+      const std::string single = "Float32";
+      const auto        type   = text.find(single, text.rfind(tag, marked));
+      text.replace(type, single.size(), "Float64");
+      const auto body = text.find(">\n", type) + 2;
+      text.replace(body, text.find("</DataArray>", body) - body, encode(values));
+    }
+  } // namespace
+
+  template <int dim, int spacedim>
+  std::string vtu_piece(const std::vector<DataOutBase::Patch<dim, spacedim>> &patches,
+                        const std::vector<std::string>                       &names,
+                        const std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                                                     DataComponentInterpretation::DataComponentInterpretation>> &ranges,
+                        const DataOutBase::VtkFlags &flags, const std::string &exact)
+  {
+    std::ostringstream out;
+    DataOutBase::write_vtu_main(patches, names, ranges, flags, out);
+    std::string text = out.str();
+
+    std::vector<double> places;
+    for (const auto &patch : patches)
+    {
+      Assert(patch.n_subdivisions == 1 && !patch.points_are_available, ExcNotImplemented());
+      for (unsigned int v = 0; v < patch.data.n_cols(); ++v)
+        for (unsigned int d = 0; d < 3; ++d)
+          places.push_back(d < spacedim ? patch.vertices[v][d] : 0.);
+    }
+    replace_array(text, "<Points>", "<Points>", places);
+    const auto name = std::find(names.begin(), names.end(), exact);
+    if (name != names.end())
+    {
+      std::vector<double> values;
+      for (const auto &patch : patches)
+        for (unsigned int v = 0; v < patch.data.n_cols(); ++v)
+          values.push_back(patch.data(name - names.begin(), v));
+      replace_array(text, "<DataArray", "Name=\"" + exact + "\"", values);
+    }
+    return text;
+  }
+
+  bool write_in_parallel(const std::string &path, const std::string &part, MPI_Comm communicator)
+  {
+    const auto all = [&](const int status) {
+      return Utilities::MPI::min(status == MPI_SUCCESS ? 1 : 0, communicator) == 1;
+    };
+    // A file that is there already would keep what lies beyond the new end.
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::remove(path.c_str());
+    MPI_Barrier(communicator);
+    MPI_File file;
+    if (!all(MPI_File_open(communicator, path.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file)))
+      return false;
+
+    const std::uint64_t size   = part.size();
+    std::uint64_t       offset = 0;
+    MPI_Exscan(&size, &offset, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      offset = 0;
+    // MPI counts in ints.
+    constexpr std::uint64_t portion = 1u << 30;
+    const std::uint64_t     most    = Utilities::MPI::max(size, communicator);
+    bool                    is_good = true;
+    for (std::uint64_t begin = 0; begin < most; begin += portion)
+    {
+      const std::uint64_t from = std::min(begin, size), n = std::min(size - from, portion);
+      MPI_Status          status;
+      int                 n_written = 0;
+      const int           result = MPI_File_write_at_all(file, offset + from, part.data() + from, n, MPI_CHAR, &status);
+      MPI_Get_count(&status, MPI_CHAR, &n_written);
+      is_good = is_good && all(result == MPI_SUCCESS && n_written == static_cast<int>(n) ? MPI_SUCCESS : MPI_ERR_IO);
+    }
+    return all(MPI_File_close(&file)) && is_good;
+  }
+
+#define INSTANTIATE(dim, spacedim)                                                                                     \
+  template std::string vtu_piece(                                                                                      \
+    const std::vector<DataOutBase::Patch<dim, spacedim>> &, const std::vector<std::string> &,                          \
+    const std::vector<std::tuple<unsigned int, unsigned int, std::string,                                              \
+                                 DataComponentInterpretation::DataComponentInterpretation>> &,                         \
+    const DataOutBase::VtkFlags &, const std::string &);
+  INSTANTIATE(0, 2)
+  INSTANTIATE(0, 3)
+  INSTANTIATE(2, 2)
+  INSTANTIATE(3, 3)
+#undef INSTANTIATE
+} // namespace Talus
