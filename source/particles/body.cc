@@ -25,6 +25,9 @@ namespace Talus
     material = std::find(material_names.begin(), material_names.end(), chosen) - material_names.begin();
     shape    = parameters.make<Shape<dim>>(section, "Shape", "box", "Region that the body fills.");
 
+    add_parameter(
+      "Clip to grid", is_clipped,
+      "Leave out what lies outside the grid, and half of the particles on its faces: half and quarter models.");
     add_parameter("Velocity", velocity_text, "Initial velocity [length/time]: functions of x, y, z, separated by ';'.");
     add_parameter("Velocity gradient", velocity_gradient,
                   "Initial velocity gradient dv_i/dx_j row by row [1/time], for the affine transfers; empty: zero.",

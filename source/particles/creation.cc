@@ -20,8 +20,10 @@ namespace Talus
                     const Visitor &visitor)
     {
       const auto index = grid.lattice.cell_index(cell->center());
-      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, const Point<dim> &x, const double volume) {
-        if (grid.lattice.cell_index(x) == index)
+      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, Point<dim> x, double volume) {
+        if (body.is_clipped)
+          volume *= grid.lattice.share_inside(x);
+        if (volume > 0 && grid.lattice.cell_index(x) == index)
           visitor(i, x, volume);
       });
     }
@@ -36,10 +38,11 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
           is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
         if (!is_inside)
-          throw EntryError(body.get_section_name(), body.shape->position_entry(),
-                                 "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
-                                   to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
-                                   ", upper faces excluded. Move the body, or enlarge the grid.");
+          throw EntryError(
+                  body.get_section_name(), body.shape->position_entry(),
+                  "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
+                    to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
+                    ", upper faces excluded. Move the body, or enlarge the grid; 'Clip to grid = true' leaves out what lies outside.");
       };
       for (unsigned int face = 0; face < 2 * dim; ++face)
       {
@@ -97,7 +100,8 @@ namespace Talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      check_inside(grid, body);
+      if (!body.is_clipped)
+        check_inside(grid, body);
       body.first_id = next_id;
       next_id += body.shape->n_indices();
       AssertThrow(

@@ -165,9 +165,18 @@ namespace Talus
           bool is_inside = true;
           for (unsigned int d = 0; d < lower.size(); ++d)
             is_inside = is_inside && point.x[d] >= lower[d] && point.x[d] <= upper[d];
-          if (is_inside)
-            surface.push_back(point);
+          if (!is_inside)
+            continue;
+          surface.push_back(point);
+          if (!body.is_clipped)
+            continue;
+          surface.back().area *= grid.lattice.share_inside(surface.back().x);
+          if (surface.back().area.norm() == 0)
+            surface.pop_back();
         }
+    if (surface.empty() && lower.empty())
+      throw EntryError(get_section_name(), "Faces",
+                       "'" + body.name + "' is clipped by the grid, and nothing of these faces is left. Name others.");
     if (surface.empty())
       throw EntryError(
         get_section_name(), "Lower corner",

@@ -19,6 +19,7 @@ DECLARE(surfaces)
 DECLARE(half_edges_of_shapes)
 DECLARE(ring)
 DECLARE(ring_errors)
+DECLARE(clipped)
 
 int main(int argc, char **argv)
 {
@@ -54,5 +55,7 @@ int main(int argc, char **argv)
                     {"ring 2D", ring<2>},
                     {"ring 3D", ring<3>},
                     {"ring errors 2D", ring_errors<2>},
-                    {"ring errors 3D", ring_errors<3>}});
+                    {"ring errors 3D", ring_errors<3>},
+                    {"clip to grid 2D", clipped<2>},
+                    {"clip to grid 3D", clipped<3>}});
 }

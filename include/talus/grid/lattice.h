@@ -68,6 +68,28 @@ namespace Talus
       return coordinate >= 0 && coordinate < n_cells[d];
     }
 
+    /**
+     * The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut: half of it where
+     * it sits on a face, a quarter on two. Moves x onto a face from which round-off has taken it.
+     */
+    double share_inside(dealii::Point<dim> &x) const
+    {
+      constexpr double round_off = 1e-9;
+      double           share     = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double c = coordinate(x[d], d), nearest = c < 0.5 * n_cells[d] ? 0. : n_cells[d];
+        if (std::abs(c - nearest) < round_off)
+        {
+          x[d] = node_position(static_cast<int>(nearest), d);
+          share *= 0.5;
+        }
+        else if (!is_inside(c, d))
+          return 0;
+      }
+      return share;
+    }
+
     /** The cell that contains x, whether or not it exists. */
     Index cell_index(const dealii::Point<dim> &x) const
     {

@@ -23,7 +23,8 @@ namespace Talus
     std::string                 name;
     unsigned int                material; // index
     std::unique_ptr<Shape<dim>> shape;
-    unsigned int                first_id = 0;
+    unsigned int                first_id   = 0;
+    bool                        is_clipped = false; // what lies outside the grid is left out
 
   private:
     /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */
