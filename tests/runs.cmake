@@ -90,7 +90,7 @@ endforeach()
 
 # The benchmarks of prm/ on coarse grids.
 foreach(case disk_TPIC disk_APIC footing still_water dam martin_moyce column_TPIC column_APIC column_cohesion
-    column_friction)
+    column_friction taylor)
   foreach(ranks 1 2)
     talus_add_run(regression.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/regression/benchmarks.py
       $<TARGET_FILE:talus> ${work}/regression/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
@@ -111,5 +111,13 @@ foreach(case incline_2d incline_3d damping energy bar_2d bar_3d pressure_2d pres
   foreach(ranks 1 2)
     talus_add_run(loads.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/loads/run.py
       $<TARGET_FILE:talus> ${work}/loads/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
+
+# What particles remember, and what files say of them.
+foreach(case path silo_2d silo_3d drop initial_stress far mirror_reaction water)
+  foreach(ranks 1 2)
+    talus_add_run(states.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/states/run.py
+      $<TARGET_FILE:talus> ${work}/states/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()
 endforeach()

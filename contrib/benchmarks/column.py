@@ -16,11 +16,13 @@ FRICTION = 0.4
 FILES = {"no-slip": "prm/column.prm", "friction": "prm/column_friction.prm"}
 
 
-def run(kernel, transfer, treatment, courant=1.0, floor="no-slip", h=H):
+def run(kernel, transfer, treatment, courant=1.0, floor="no-slip", h=H, gap="off"):
     return Run(FILES[floor],
                {"Kernel/Type": kernel, "Transfer/Type": transfer, "Kernel/Boundary treatment": treatment,
-                "Run/Courant number": courant, "Grid/Spacing": h},
-               {"floor": floor, "h": h, "kernel": kernel, "transfer": transfer, "treatment": treatment, "Cr": courant})
+                "Run/Courant number": courant, "Grid/Spacing": h,
+                "Materials/sand/Remember loosening": "true" if gap == "on" else "false"},
+               {"floor": floor, "h": h, "kernel": kernel, "transfer": transfer, "treatment": treatment, "Cr": courant,
+                "gap": gap})
 
 
 def runs():
@@ -29,6 +31,9 @@ def runs():
             + [run("uGIMP", "FLIP", "WLS", 0.7)]
             + [run("quadratic B-spline", transfer, "Steffen") for transfer in ("APIC", "TPIC")]
             + [run("quadratic B-spline", transfer, "WLS", floor="friction") for transfer in ("APIC", "TPIC")]
+            # Sand that closes its gaps first, which the paper's does not.
+            + [run("quadratic B-spline", transfer, "WLS", floor=floor, gap="on") for floor in FILES
+               for transfer in ("FLIP", "APIC", "TPIC")]
             # How much the run-out depends on spacing and step size.
             + [run("quadratic B-spline", "TPIC", "WLS", floor=floor, h=h) for floor in FILES for h in (0.02, 0.005)]
             + [run("quadratic B-spline", "TPIC", "WLS", courant, floor) for floor in FILES for courant in (0.5, 0.2)])
@@ -37,6 +42,10 @@ def runs():
 def run_out(particles):
     x = np.sort(particles["x"])
     return (x[int(0.99 * (len(x) - 1))] - WIDTH) / WIDTH
+
+
+def farthest(particles):
+    return np.max(particles["x"])
 
 
 def height(particles, h=H):
@@ -71,7 +80,7 @@ def mean_J(particles):
 
 
 def table(results):
-    return [{**result.run.label, "run-out": end(result, run_out), "height": end(result, height, result.run.label["h"]),
+    return [{**result.run.label, "run-out": end(result, run_out), "farthest": end(result, farthest), "height": end(result, height, result.run.label["h"]),
              "mean J": end(result, mean_J), "kinetic energy": kinetic_energy(result),
              "friction/normal": statistic(result, mobilised), "failed at": result.failure_time()}
             for result in results]
@@ -79,8 +88,8 @@ def table(results):
 
 def figures(results):
     by = {tuple(result.run.label.values()): result for result in results}
-    get = lambda kernel, transfer, treatment="WLS", courant=1.0, floor="no-slip": by[floor, H, kernel, transfer, treatment,
-                                                                                     courant]
+    get = lambda kernel, transfer, treatment="WLS", courant=1.0, floor="no-slip", gap="off": by[
+        floor, H, kernel, transfer, treatment, courant, gap]
     quadratic, gimp = "quadratic B-spline", "uGIMP"
     values = []
     for transfer in ("APIC", "TPIC"):
@@ -106,6 +115,13 @@ def figures(results):
                                     end(result, run_out) / end(get(quadratic, transfer), run_out), lower=1))
         values.append(report.Figure(f"friction, {transfer}, energy added / work of gravity", statistic(result, gain), upper=1e-6))
         values.append(report.Figure(f"friction, {transfer}, mean J", end(result, mean_J), upper=1.05))
+    for floor in FILES:
+        for transfer in ("APIC", "TPIC"):
+            result, without = (get(quadratic, transfer, floor=floor, gap=gap) for gap in ("on", "off"))
+            values.append(report.near(f"gap, {floor}, {transfer}, farthest grain over that without",
+                                      end(result, farthest) / end(without, farthest), 1, 0.02))
+            values.append(report.Figure(f"gap, {floor}, {transfer}, mean J", end(result, mean_J), 0.98, 1.05))
+    values.append(report.Figure("gap, FLIP, mean J", end(get(quadratic, "FLIP", gap="on"), mean_J), 0.98, 1.05))
     return values
 
 
@@ -113,7 +129,8 @@ def draw(results, path):
     """The velocity's norm at three times."""
     shown = [result for result in results if result.status == 0 and result.run.label["h"] == H
              and (result.run.label["floor"] == "no-slip" or result.run.label["transfer"] == "TPIC")
-             and (result.run.label["Cr"] == 1 or result.run.label["transfer"] == "FLIP")]
+             and (result.run.label["Cr"] == 1 or result.run.label["transfer"] == "FLIP")
+             and (result.run.label["gap"] == "off" or result.run.label["transfer"] != "APIC")]
     times = (0.15, 0.3, 0.6)
     figure, axes = plt.subplots(len(shown), len(times), figsize=(11, 1.6 * len(shown) + 0.6), squeeze=False,
                                 layout="constrained")
@@ -125,7 +142,7 @@ def draw(results, path):
             axis.set(xlim=(0, 0.8), ylim=(0, 0.31), aspect="equal", xticks=[], yticks=[])
             label = result.run.label
             axis.set_title(f"{label['kernel'].split()[0]}, {label['transfer']}, {label['floor']}, Cr {label['Cr']}, "
-                           f"t = {time} s", fontsize=8)
+                           f"{'gap, ' if label['gap'] == 'on' else ''}t = {time} s", fontsize=8)
     figure.colorbar(drawn, ax=list(axes.flat), label="speed [m/s]", extend="max", shrink=0.5)
     figure.suptitle("Column of sand, h = .01, WLS")
     figure.savefig(path, dpi=110)
