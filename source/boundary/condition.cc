@@ -1,6 +1,10 @@
 #include <talus/boundary/condition.h>
 #include <talus/core/exceptions.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
 namespace Talus
 {
   using namespace dealii;
@@ -11,6 +15,9 @@ namespace Talus
     add_parameter("Boundary ids", boundary_ids,
                   "Faces of the grid's box: 0, 1 are the lower and upper face in x, 2, 3 in y, 4, 5 in z.", prm,
                   Patterns::List(Patterns::Integer(0, 2 * dim - 1), 0, 2 * dim));
+    add_parameter("Half spaces", half_spaces,
+                  "All nodes at and beyond walls inside the grid, for instance 'x <= 0.1, y >= 2' [length].", prm,
+                  Patterns::List(Patterns::Anything()));
     add_parameter("Lower corner", lower, "With 'Upper corner': all nodes in this box [length].", prm,
                   Patterns::List(Patterns::Double(), 0, dim));
     add_parameter("Upper corner", upper, "With 'Lower corner': all nodes in this box [length].", prm,
@@ -28,12 +35,36 @@ namespace Talus
     if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
       throw EntryError(get_section_name(), "Lower corner",
                        "give both corners of the box with " + std::to_string(dim) + " numbers each.");
-    if (boundary_ids.empty() && lower.empty())
+    faces = boundary_ids;
+    positions.clear();
+    for (const std::string &half_space : half_spaces)
+      read_half_space(half_space);
+    if (faces.empty() && lower.empty())
       throw EntryError(get_section_name(), "Boundary ids",
-                       "the condition acts nowhere. Give boundary ids or the corners of a box of nodes.");
+                       "the condition acts nowhere. Give boundary ids, half spaces or the corners of a box of nodes.");
     if (!start_time.empty() && !end_time.empty() && !(end_time[0] > start_time[0]))
       throw EntryError(get_section_name(), "End time",
                        "the condition never acts. Give a time after the start time, or nothing for no end.");
+  }
+
+  template <int dim>
+  void Condition<dim>::read_half_space(const std::string &text)
+  {
+    const std::regex pattern(std::string("\\s*([") + (dim == 2 ? "xy" : "xyz") + "])\\s*(<=|>=)\\s*(\\S+)\\s*");
+    std::smatch      parts;
+    char            *end = nullptr;
+    std::string      number;
+    double           position = 0;
+    if (std::regex_match(text, parts, pattern))
+    {
+      number   = parts[3];
+      position = std::strtod(number.c_str(), &end);
+    }
+    if (number.empty() || *end != '\0' || !std::isfinite(position))
+      throw EntryError(get_section_name(), "Half spaces",
+                       "cannot understand '" + text + "'. Write an axis, <= or >=, and a number: x <= 0.1");
+    faces.push_back(2 * (parts[1].str()[0] - 'x') + (parts[2] == ">="));
+    positions.push_back(position);
   }
 
   template <int dim>
@@ -42,6 +73,23 @@ namespace Talus
     all_nodes.clear();
     for (const unsigned int id : boundary_ids)
       all_nodes.push_back(grid.nodes_on_boundary(id));
+    for (unsigned int s = 0; s < positions.size(); ++s)
+    {
+      const unsigned int face = faces[boundary_ids.size() + s], axis = face / 2;
+      // A node on the plane belongs to it, whatever round-off makes of its place.
+      const double margin = 1e-9 * grid.lattice.h[axis];
+      Point<dim>   a = grid.lower, b = grid.upper;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        a[d] -= grid.lattice.h[d];
+        b[d] += grid.lattice.h[d];
+      }
+      (face % 2 == 0 ? b : a)[axis] = positions[s] + (face % 2 == 0 ? margin : -margin);
+      all_nodes.push_back(grid.nodes_in_box(a, b));
+      if (Utilities::MPI::sum<unsigned int>(all_nodes.back().size(), grid.communicator) == 0)
+        throw EntryError(get_section_name(), "Half spaces",
+                         "no node of the grid lies in '" + half_spaces[s] + "'. Move the plane into the grid.");
+    }
     if (!lower.empty())
     {
       Point<dim> a, b;
@@ -94,7 +142,7 @@ namespace Talus
   {
     for (unsigned int list = 0; list < all_nodes.size(); ++list)
     {
-      // Nodes in a box are held whatever the face.
+      // Nodes in a box or beyond a plane are held whatever the face.
       const unsigned int own = list < boundary_ids.size() ? 1u << boundary_ids[list] : (is_slip() ? 0u : ~0u);
       for (const unsigned int i : all_nodes[list])
         faces[i] = is_slip() ? faces[i] | own : faces[i] & ~own;

@@ -79,25 +79,45 @@ namespace Talus
       void parse_parameters(ParameterHandler &prm) override
       {
         Condition<dim>::parse_parameters(prm);
-        if (this->boundary_ids.empty())
+        if (this->faces.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
-                           "slip needs the faces whose normals it acts along. A box of nodes has none.");
+                           "slip needs the faces or half spaces whose normals it acts along. A box of nodes has none.");
       }
 
       bool is_slip() const override { return true; }
 
     private:
+      /** Stops a node along the normal. */
+      virtual void stop(const unsigned int i, const unsigned int axis) { this->set(i, axis, 0.); }
+
       void prescribe(const double, Grid<dim> &grid) override
       {
-        for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
-          const unsigned int id = this->boundary_ids[f];
+          const unsigned int id = this->faces[f];
           for (const unsigned int i : this->nodes[f])
-            this->set(i, id / 2, 0.);
-          // Of two conditions on one face the first has it.
-          this->reaction[id / 2] += std::exchange(grid.fields.mirrored_force[id], 0.);
+            stop(i, id / 2);
+          // Of two conditions on one face the first has it. Planes inside the grid mirror nothing.
+          if (f < this->boundary_ids.size())
+            this->reaction[id / 2] += std::exchange(grid.fields.mirrored_force[id], 0.);
         }
       }
+    };
+
+    /**
+     * A plane of symmetry: along its normal velocities *and accelerations* of nodes at it and beyond are zero. What
+     * particles on one side alone bring to such a node is of the order of the spacing and no velocity of the plane;
+     * slip hands its loss to transfers that carry increments (FLIP, CPLS), which costs half an order at the plane.
+     * Test: tests/boundary/main.cc; tests/regression/verification.py.
+     */
+    template <int dim>
+    class Symmetry : public Slip<dim>
+    {
+    public:
+      using Slip<dim>::Slip;
+
+    private:
+      void stop(const unsigned int i, const unsigned int axis) override { this->arrest(i, axis); }
     };
 
     /**
@@ -122,9 +142,9 @@ namespace Talus
       {
         Condition<dim>::parse_parameters(prm);
         wall.initialize(wall_text, this->get_section_name(), "Wall velocity");
-        if (this->boundary_ids.empty())
+        if (this->faces.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
-                           "friction needs the faces whose normals press. A box of nodes has none.");
+                           "friction needs the faces or half spaces whose normals press. A box of nodes has none.");
         if (!(mu >= 0))
           throw EntryError(this->get_section_name(), "Friction coefficient",
                            "it must not be negative; 0 is a wall without friction.");
@@ -135,10 +155,10 @@ namespace Talus
       {
         using Fields          = NodalFields<dim>;
         Tensor<1, dim> v_wall = wall.value({}, time);
-        for (unsigned int f = 0; f < this->boundary_ids.size(); ++f)
+        for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
-          const unsigned int axis    = this->boundary_ids[f] / 2;
-          const double       outward = this->boundary_ids[f] % 2 == 0 ? -1 : 1;
+          const unsigned int axis    = this->faces[f] / 2;
+          const double       outward = this->faces[f] % 2 == 0 ? -1 : 1;
           for (const unsigned int i : this->nodes[f])
           {
             if (wall.depends_on_space())
@@ -166,6 +186,7 @@ namespace Talus
     const RegisterDimensions<Condition, Velocity> velocity("velocity", "velocity as a function of place and time");
     const RegisterDimensions<Condition, NoSlip>   no_slip("no-slip", "nodes are fixed");
     const RegisterDimensions<Condition, Slip>     slip("slip", "no motion along the normal of a face");
+    const RegisterDimensions<Condition, Symmetry> symmetry("symmetry", "no motion and no acceleration along a normal");
     const RegisterDimensions<Condition, Friction> friction("friction", "Coulomb friction on a face, free to lift off");
   } // namespace
 } // namespace Talus

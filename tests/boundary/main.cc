@@ -89,6 +89,20 @@ void kinds()
                  v               = acts ? 0 : v;
                  return acts;
                });
+  // Nodes lie at multiples of a quarter; 0.25 is a node, 0.6 is not.
+  compare<dim>("slip at and beyond two planes", set("Type", "slip") + set("Half spaces", "x <= 0.25, y >= 0.6"),
+               [](const Point<dim> &x, const unsigned int d, double &v) {
+                 const bool acts = (d == 0 && x[0] < 0.3) || (d == 1 && x[1] > 0.6);
+                 v               = acts ? 0 : v;
+                 return acts;
+               });
+  compare<dim>("no-slip on a face and beyond a plane",
+               set("Type", "no-slip") + set("Boundary ids", "0") + set("Half spaces", "y>=.75"),
+               [](const Point<dim> &x, const unsigned int, double &v) {
+                 const bool acts = is(x[0], 0) || x[1] > 0.7;
+                 v               = acts ? 0 : v;
+                 return acts;
+               });
   compare<dim>("velocity of one component in a box",
                set("Type", "velocity") + set("Velocity", dim == 2 ? "9; x + 2*t" : "9; x + 2*t; 9") +
                  set("Components", "y") + set("Lower corner", coordinates<dim>({{0.2, 0.2, 0.2}})) +
@@ -100,6 +114,34 @@ void kinds()
                  v = acts ? x[0] + 1.4 : v;
                  return acts;
                });
+}
+
+/** At a plane of symmetry velocity and increment are zero, and the reaction is the nodal force alone. */
+template <int dim>
+void symmetry()
+{
+  Setup<dim> setup(section("Grid", set("Spacing", "0.25")) +
+                   conditions("one", section("one", set("Type", "symmetry") + set("Half spaces", "y <= 0.25") +
+                                                      set("Boundary ids", "1"))));
+  move(setup, 0, 0.1);
+  double error = 0, force[dim] = {};
+  for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const auto x    = setup.grid.node_position(i);
+      const bool acts = (d == 0 && is(x[0], 1)) || (d == 1 && x[1] < 0.3);
+      raise(error, setup.grid.fields[i][NodalFields<dim>::velocity + d] - (acts ? 0 : trial(setup, i, d)));
+      raise(error, setup.grid.fields[i][NodalFields<dim>::increment + d] - (acts ? 0 : 0.25));
+      force[d] += acts ? mass(setup, i) * 0.25 / 0.1 : 0;
+    }
+  check("velocity and increment", error, 1e-15);
+  const auto &condition = *setup.boundary.conditions[0];
+  for (unsigned int d = 0; d < dim; ++d)
+  {
+    check("reaction", condition.reaction[d] - force[d], 1e-11);
+    check("nodal force", condition.nodal_force[d] - force[d], 1e-11);
+  }
+  check("work", condition.work, 0.);
 }
 
 /** The last condition of the list has the last word, and pays for it alone. */
@@ -233,6 +275,10 @@ void boundary_errors()
         set("Type", "slip") + set("Lower corner", coordinates<dim>({{0, 0, 0}})) +
           set("Upper corner", coordinates<dim>({{1, 1, 1}})),
         "Boundary ids", "slip needs the faces");
+  for (const std::string bad : {"x < 0.5", "x <= half", "w <= 0.5", "x <= nan", "x 0.5"})
+    error("half space " + bad, set("Type", "slip") + set("Half spaces", bad), "Half spaces", "cannot understand");
+  error("half space outside", set("Type", "slip") + set("Half spaces", "x >= 0, y <= -0.1"), "Half spaces",
+        "no node of the grid lies in 'y <= -0.1'");
   error("one corner", set("Type", "no-slip") + set("Lower corner", coordinates<dim>({{0, 0, 0}})), "Lower corner",
         "both corners");
   error("box between the nodes",
@@ -256,6 +302,8 @@ int main(int argc, char **argv)
   return run(argc, argv,
              {{"kinds 2D", kinds<2>},
               {"kinds 3D", kinds<3>},
+              {"symmetry 2D", symmetry<2>},
+              {"symmetry 3D", symmetry<3>},
               {"order 2D", order<2>},
               {"order 3D", order<3>},
               {"friction 2D", friction<2>},

@@ -65,11 +65,33 @@ namespace Talus
       node[Fields::increment + component] += change;
     }
 
+    /**
+     * Sets a component of a node's velocity and of its acceleration to zero. The body loses what the node's forces
+     * would have given it, and not what its particles have brought there.
+     */
+    void arrest(const unsigned int i, const unsigned int component)
+    {
+      using Fields         = NodalFields<dim>;
+      double      *node    = grid->fields[i];
+      const double impulse = node[Fields::mass] * node[Fields::increment + component];
+      reaction[component] += impulse / dt;
+      if (held->hold(i, component))
+        nodal_force[component] += impulse / dt;
+      node[Fields::velocity + component]  = 0;
+      node[Fields::increment + component] = 0;
+    }
+
     std::vector<unsigned int>              boundary_ids;
-    std::vector<std::vector<unsigned int>> nodes; // active, of each boundary id; of the box in the last list
+    std::vector<unsigned int>              faces; // 2 axis + side: boundary ids, and faces parallel to the half spaces
+    std::vector<std::vector<unsigned int>> nodes; // active, of each of these; of the box in the last list
 
   private:
+    /** Enters "x <= 0.1" into `faces` and `positions`. */
+    void read_half_space(const std::string &text);
+
     std::vector<std::vector<unsigned int>> all_nodes; // owned
+    std::vector<std::string>               half_spaces;
+    std::vector<double>                    positions; // of their planes [length]
     std::vector<double>                    lower, upper;
     std::vector<double>                    start_time, end_time; // one number or none
     double                                 dt   = 0;
