@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/boundary/condition.h>
+#include <talus/core/body_force.h>
 #include <talus/core/parameters.h>
 #include <talus/grid/grid.h>
 #include <talus/kernels/kernel.h>
@@ -179,7 +180,7 @@ namespace Test
     std::vector<std::unique_ptr<Body<dim>>> bodies;
     Particles<dim>                          particles;
     Boundary<dim>                           boundary;
-    ParsedVector<dim>                       acceleration;
+    BodyForce<dim>                          acceleration;
     Tractions<dim>                          tractions;
     VolumeSmoothing<dim>                    smoothing;
 

@@ -89,7 +89,7 @@ namespace Talus
   {
     // parameters.prm is not among them: it may be the very file from which the run is repeated.
     static const std::regex pattern("((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|"
-                                    "(statistics|probes|comparison|load_curve)\\.csv|log\\.txt)(\\.tmp)?");
+                                    "(statistics|probes|comparison|load_curve|verification)\\.csv|log\\.txt)(\\.tmp)?");
     return std::regex_match(name, pattern);
   }
 

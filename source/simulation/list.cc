@@ -5,6 +5,7 @@
 #include <talus/particles/shape.h>
 #include <talus/simulation/list.h>
 #include <talus/transfer/transfer.h>
+#include <talus/verification/manufactured_solution.h>
 
 #include <iomanip>
 
@@ -28,5 +29,6 @@ namespace Talus
     list<Material>(out, "material");
     list<Shape<2>>(out, "shape");
     list<Condition<2>>(out, "condition");
+    list<ManufacturedSolution<2>>(out, "solution");
   }
 } // namespace Talus

@@ -64,6 +64,7 @@ namespace Talus
     kernel->add_fields(particles);
     transfer->add_fields(particles);
     add_reference(parameters, material_names);
+    verification = Verification<dim>::make(parameters, communicator);
 
     transfer->is_plain =
       parameters.choose_from("/Run", "Loops", "batched", "batched|plain",
@@ -144,6 +145,8 @@ namespace Talus
     for (auto &condition : boundary.conditions)
       condition->attach(grid);
     boundary.mark_slip_walls(std::numeric_limits<double>::min(), particles.n_stencil_nodes, grid);
+    if (verification)
+      verification->start(materials, particles, acceleration);
     transfer->initialize(*kernel, particles);
     smoothing.initialize(materials, *kernel, particles, grid);
     for (auto &traction : tractions.loads)
@@ -185,6 +188,9 @@ namespace Talus
     for (const auto &name : tractions.names)
       for (unsigned int d = 0; d < dim; ++d)
         columns.push_back({"traction " + name + " " + "xyz"[d], "force"});
+    if (verification)
+      for (const auto &column : Verification<dim>::columns())
+        columns.push_back(column);
     statistics.open(output.directory() + "/statistics.csv", columns, communicator);
 
     say(summary());
@@ -197,6 +203,8 @@ namespace Talus
     Timing::Scope scope(timing, output_section);
     if (comparison && step > 0)
       comparison->accumulate(time, dt, end_time, now.reactions, particles);
+    if (verification)
+      verification->record(time, end_time, step, particles);
     if (output.is_statistics_due(step) || is_finished())
     {
       write_statistics();
@@ -227,6 +235,11 @@ namespace Talus
       row.insert(row.end(), force.begin_raw(), force.end_raw());
     for (const auto &force : now.traction_forces)
       row.insert(row.end(), force.begin_raw(), force.end_raw());
+    if (verification)
+    {
+      const auto errors = verification->errors(time, particles);
+      row.insert(row.end(), errors.begin(), errors.end());
+    }
     statistics.write_row(row);
   }
 
@@ -242,6 +255,12 @@ namespace Talus
       comparison->finish(end_time, materials, boundary.names, particles);
       std::ostringstream table;
       comparison->write(output.directory() + "/comparison.csv", table);
+      say(table.str());
+    }
+    if (verification)
+    {
+      std::ostringstream table;
+      verification->write(output.directory() + "/verification.csv", table);
       say(table.str());
     }
     if (load_curve)
@@ -338,9 +357,10 @@ namespace Talus
   void Simulation<dim>::advance()
   {
     dt                 = choose_step_size();
-    const bool is_last = time + dt >= end_time * (1 - 1e-12);
-    if (is_last)
-      dt = end_time - time;
+    const double stop  = verification ? verification->next_stop(time, end_time) : end_time;
+    const bool   stops = time + dt >= stop * (1 - 1e-12);
+    if (stops)
+      dt = stop - time;
     {
       Timing::Scope scope(timing, upkeep_section);
       upkeep.run(model, now);
@@ -350,7 +370,7 @@ namespace Talus
       smoothing.apply(materials, *kernel, dt, particles, grid);
     }
     now  = explicit_step(model, time, dt, step_timing);
-    time = is_last ? end_time : time + dt;
+    time = stops ? stop : time + dt;
     ++step;
 
     lost_momentum += now.lost_momentum;

@@ -37,11 +37,12 @@ namespace Talus
   Surveyor<dim>::Surveyor(Model<dim> &model, const std::vector<MaterialRange> &ranges, const double time,
                           const double dt) :
     model(model),
-    ranges(ranges), time(time), dt(dt), b(model.acceleration.value({}, time))
+    ranges(ranges), time(time), dt(dt), b(model.acceleration.uniform_value(time))
   {
     const WorkingSet<dim> &particles = model.particles;
 
-    x        = particles.template components<dim>(particles.position);
+    place = particles.template components<dim>(
+      model.acceleration.is_of_initial_position() ? particles.initial_position : particles.position);
     v        = particles.template components<dim>(particles.velocity);
     F        = particles.template components<dim * dim>(particles.F);
     grad_v   = particles.template components<dim * dim>(particles.grad_v);
@@ -69,7 +70,7 @@ namespace Talus
       for (unsigned int p = begin; p < end; ++p)
       {
         const SingleBatch one{p};
-        const auto        b_p = model.acceleration.value(Point<dim>(load_vector<dim>(one, x)), time);
+        const auto        b_p = model.acceleration.value(Point<dim>(load_vector<dim>(one, place)), time);
         body_force_power += mass[p] * (b_p * load_vector<dim>(one, v));
       }
   }

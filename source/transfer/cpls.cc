@@ -39,7 +39,7 @@ namespace Talus
       }
 
       void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                            const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) override
+                            const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) override
       {
         AffineTransfer<dim, Flip>::particle_to_grid(particles, kernel, acceleration, time, grid);
         if (basis == "linear")

@@ -75,6 +75,12 @@ def wrong_entry(name, old, new, entry, *message):
     return Case(name, [(old, new)], [r"FILE:LINE: ", f"entry '{entry}'", *message])
 
 
+def wrong_solution(name, text, entry, *message, changes=()):
+    section = "subsection Verification\n  # here\nend\n"
+    return Case(name, [*changes, ("subsection Output\n", section + "subsection Output\n"), ("  # here", text)],
+                [r"FILE:LINE: ", f"entry '{entry}' in section 'Verification'", *message])
+
+
 def wrong_traction(name, text, entry, *message):
     section = "subsection Tractions\n  set Names = load\n  subsection load\n    # here\n  end\nend\n"
     return Case(name, [("subsection Output\n", section + "subsection Output\n"), ("    # here", text)],
@@ -144,6 +150,10 @@ CASES = {
                     "the body is empty", "must lie above"),
         Case("empty ball", [(BOX, BALL.format(0.5, 0))],
              ["entry 'Radius' in section 'Bodies/block'", "the body is empty", "must be positive"]),
+        Case("empty ring", [(BOX, "    set Inner radius = 1\n    set Shape = ring\n")],
+             ["entry 'Outer radius' in section 'Bodies/block'", "the body is empty", "greater than the inner"]),
+        Case("ring partly outside the grid", [(BOX, "    set Shape = ring\n")],
+             ["entry 'Centre' in section 'Bodies/block'", *OUTSIDE]),
         wrong_entry("body outside the grid", BOX, BOX.replace("0.25, 0", "2.25, 0").replace("1.75, 0", "2.75, 0"),
                     "Lower corner' in section 'Bodies/block", *OUTSIDE),
         wrong_entry("body partly outside the grid", "set Lower corner = 0.25, 0.25", "set Lower corner = 0.25, -0.1",
@@ -187,9 +197,24 @@ CASES = {
              [("set Type = velocity\n    set Boundary ids = 2",
                "set Type = friction\n    set Lower corner = 0, 0\n    set Upper corner = 2, 0.1")],
              ["case.prm: ", "entry 'Boundary ids' in section 'Conditions/floor'", "friction needs the faces"]),
+        wrong_entry("half space without a node", "set Boundary ids = 2", "set Half spaces = y <= -0.5", "Half spaces",
+                    "no node of the grid lies in 'y <= -0.5'", "Move the plane"),
+        wrong_entry("half space that is none", "set Boundary ids = 2", "set Half spaces = y < 1", "Half spaces",
+                    "cannot understand 'y < 1'", "x <= 0.1"),
+        wrong_solution("solution of another material", "  set Solution = vortex", "Solution", "one neo-Hookean material"),
+        wrong_solution("solution with tractions", "  set Solution = ring", "Solution", "Set Poisson's ratio to 0",
+                       changes=[("    set Density", "    set Type = neo-Hookean\n    set Density")]),
+        wrong_solution("solution inside out", "  set Amplitude = 0.5\n  set Solution = vibration", "Amplitude",
+                       "inside out", "smaller amplitude",
+                       changes=[("    set Density", "    set Type = neo-Hookean\n    set Density")]),
         wrong_entry("condition that never acts", "    set Boundary ids = 2",
                     "    set End time = 1\n    set Start time = 2\n    set Boundary ids = 2", "End time", "never acts",
                     "after the start time"),
+        Case("body force beside a solution",
+             [("    set Density", "    set Type = neo-Hookean\n    set Density"),
+              ("subsection Output\n", "subsection Verification\n  set Solution = vortex\nend\nsubsection Output\n"),
+              ("  set End time", "  set Body force = 0; -9.81\n  set End time")],
+             ["FILE:LINE: ", "entry 'Body force' in section 'Run'", "the manufactured solution gives it"]),
         wrong_traction("face that does not exist", "    set Faces = top", "Faces", "has no face 'top'",
                        r"Choices: all, x-, x\+, y-, y\+"),
         wrong_traction("traction that acts nowhere", "    set Lower corner = 0.5, 0.4\n    set Upper corner = 1, 0.6",

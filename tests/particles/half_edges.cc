@@ -41,7 +41,8 @@ namespace
   {
     double error = 0;
     for (unsigned int p = 0; p < setup.particles.size(); ++p)
-      raise(error, domain_volume(half_edges(setup, p)) / setup.particles.component(setup.particles.volume, 0)[p] - 1);
+      raise(error,
+            domain_volume<dim>(half_edges(setup, p)) / setup.particles.component(setup.particles.volume, 0)[p] - 1);
     return error;
   }
 } // namespace
@@ -100,8 +101,8 @@ void ring()
                               [&] { Setup<dim> s(section("Grid", grid) + body_text(text)); });
       continue;
     }
-    const auto   setup = with_half_edges<dim>(grid, text);
-    const auto  &particles  = setup->particles;
+    const auto   setup     = with_half_edges<dim>(grid, text);
+    const auto  &particles = setup->particles;
     const double dR = 0.5 / 3, dA = (end - start) / 180 * pi / 40, dz = dim == 3 ? 0.04 : 1;
     double       place = 0, edge = 0, volume = 0, total = 0;
     for (unsigned int p = 0; p < particles.size(); ++p)

@@ -7,6 +7,7 @@
 #include <talus/postprocess/probes.h>
 #include <talus/postprocess/progress.h>
 #include <talus/postprocess/statistics.h>
+#include <talus/postprocess/verification.h>
 #include <talus/steppers/explicit_step.h>
 #include <talus/steppers/upkeep.h>
 #include <talus/transfer/volume_smoothing.h>
@@ -61,7 +62,7 @@ namespace Talus
     std::unique_ptr<Kernel<dim>>            kernel;
     std::unique_ptr<Transfer<dim>>          transfer;
     Boundary<dim>                           boundary;
-    ParsedVector<dim>                       acceleration;
+    BodyForce<dim>                       acceleration;
     Tractions<dim>                          tractions;
     VolumeSmoothing<dim>                    smoothing;
     Model<dim>                              model;
@@ -72,6 +73,8 @@ namespace Talus
     std::unique_ptr<Progress>        progress;
     std::unique_ptr<Comparison<dim>> comparison; // with a finite element reference, on request
     std::unique_ptr<LoadCurve<dim>>  load_curve; // of the plastic one, on request
+
+    std::unique_ptr<Verification<dim>> verification; // against a manufactured solution, on request
 
     std::string  acceleration_text;
     double       end_time = 1, courant_number = 0.5, fixed_step_size = 0;

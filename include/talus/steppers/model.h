@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/boundary/condition.h>
+#include <talus/core/body_force.h>
 #include <talus/particles/material_range.h>
 #include <talus/particles/particles.h>
 #include <talus/transfer/tractions.h>
@@ -18,7 +19,7 @@ namespace Talus
     Transfer<dim>                          &transfer;
     Boundary<dim>                          &boundary;
     std::vector<std::unique_ptr<Material>> &materials;
-    ParsedVector<dim>                      &acceleration; // body force per mass
+    BodyForce<dim>                         &acceleration; // body force per mass
     Tractions<dim>                         &tractions;
   };
 } // namespace Talus

@@ -54,7 +54,7 @@ namespace Talus
     const std::vector<MaterialRange> &ranges;
     const double                      time, dt;
 
-    std::array<const double *, dim>                       x, v;
+    std::array<const double *, dim>                       v, place; // of the body force
     std::array<const double *, dim * dim>                 F, grad_v;
     std::array<const double *, WorkingSet<dim>::n_stress> stress;
     const double                                         *mass, *volume;

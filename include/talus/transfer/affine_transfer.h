@@ -30,15 +30,14 @@ namespace Talus
       if (!Scheme<dim>::needs_D)
         return;
       const auto here = arrays(particles);
-      Lists::for_each_list(particles, kernel, 0, particles.size(),
-                           [&](const auto batch, const Stencil<dim> *stencils) {
-                             for (unsigned int l = 0; l < batch.size(); ++l)
-                               scheme.initialize(here, SingleBatch{batch.p + l}, Lists::second_moment(stencils[l]));
-                           });
+      Lists::for_each_list(particles, kernel, 0, particles.size(), [&](const auto batch, const Stencil<dim> *stencils) {
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          scheme.initialize(here, SingleBatch{batch.p + l}, Lists::second_moment(stencils[l]));
+      });
     }
 
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                          const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) override
+                          const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) override
     {
       const auto here = arrays(const_cast<WorkingSet<dim> &>(particles)); // read only
       const auto form = kernel.lattice_form();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/core/function.h>
+#include <talus/core/body_force.h>
 #include <talus/grid/grid.h>
 #include <talus/transfer/batch_gather.h>
 #include <talus/transfer/batch_scatter.h>
@@ -21,11 +21,12 @@ namespace Talus
   public:
     static void particle_to_grid(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
                                  const unsigned int n_particles, const LatticeForm<dim> &kernel,
-                                 const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid)
+                                 const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid)
     {
       const Lattice<dim>  &lattice   = kernel.lattice;
       Fields              &fields    = grid.fields;
-      const auto           uniform_b = acceleration.value({}, time);
+      const auto           uniform_b = acceleration.uniform_value(time);
+      const auto          &place = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
       const Evaluator      evaluator(function, lattice, kernel.treatment);
       LatticeBatch<dim, n> stencil;
       for_each_batch(0, n_particles, [&](const auto batch) {
@@ -36,7 +37,7 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
           b[d] = uniform_b[d];
         if (acceleration.depends_on_space())
-          b = body_force(acceleration, x, time);
+          b = body_force(acceleration, load_vector<dim>(batch, place), time);
 
         const BatchScatter<dim, Scheme, Function> scatter(scheme, arrays, batch, stencil, b, lattice);
         scatter.add(lattice, stencil, batch.size(), fields);

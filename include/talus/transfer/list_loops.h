@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/core/function.h>
+#include <talus/core/body_force.h>
 #include <talus/grid/grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/transfer/contribution.h>
@@ -25,17 +25,18 @@ namespace Talus
     /** Eqs. (11)-(19). */
     static void particle_to_grid(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                  const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                                 const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid)
+                                 const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid)
     {
-      const auto                uniform_b = acceleration.value({}, time);
-      const double              h         = grid.lattice.largest_spacing();
+      const auto   uniform_b = acceleration.uniform_value(time);
+      const auto  &place     = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
+      const double h         = grid.lattice.largest_spacing();
       Contribution<dim, Scheme> add;
       for_each_list(particles, kernel, 0, particles.size(), [&](const auto batch, const Stencil<dim> *stencils) {
         Vector b;
         for (unsigned int d = 0; d < dim; ++d)
           b[d] = uniform_b[d];
         if (acceleration.depends_on_space())
-          b = body_force(acceleration, load_vector<dim>(batch, arrays.position), time);
+          b = body_force(acceleration, load_vector<dim>(batch, place), time);
         Matrix C;
         if constexpr (Scheme::is_affine)
         {

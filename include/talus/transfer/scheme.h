@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/core/function.h>
+#include <talus/core/body_force.h>
 #include <talus/grid/lattice.h>
 #include <talus/particles/batch_access.h>
 #include <talus/particles/working_set.h>
@@ -18,6 +18,7 @@ namespace Talus
       velocity(particles.template components<dim>(particles.velocity)),
       grad_v(particles.template components<dim * dim>(particles.grad_v)),
       stress(particles.template components<WorkingSet<dim>::n_stress>(particles.stress)),
+      initial_position(particles.template components<dim>(particles.initial_position)),
       mass(particles.component(particles.mass, 0)), volume(particles.component(particles.volume, 0)),
       F(particles.template components<dim * dim>(particles.F))
     {
@@ -26,6 +27,7 @@ namespace Talus
     std::array<double *, dim>                       position, velocity;
     std::array<double *, dim * dim>                 grad_v;
     std::array<double *, WorkingSet<dim>::n_stress> stress;
+    std::array<double *, dim>                       initial_position;
     double                                         *mass, *volume;
     std::array<double *, dim * dim>                 F;   // not read: what follows the gather does
     std::array<double *, dim * dim>                 B{}; // the affine moment, where a scheme stores it
@@ -86,7 +88,7 @@ namespace Talus
 
   /** The body force per mass on each particle of a batch. */
   template <int dim>
-  dealii::Tensor<1, dim, Simd<native_width>> body_force(const ParsedVector<dim>                          &acceleration,
+  dealii::Tensor<1, dim, Simd<native_width>> body_force(const BodyForce<dim>                             &acceleration,
                                                         const dealii::Tensor<1, dim, Simd<native_width>> &x,
                                                         const double                                      time)
   {
@@ -105,9 +107,10 @@ namespace Talus
 
   /** What a batch does with what it has gathered; returns the largest displacement along an axis [spacing]. */
   template <int dim, class Scheme, class Batch>
-  [[gnu::always_inline]] inline typename Batch::Number
-  advance(const Scheme &scheme, const TransferArrays<dim> &arrays, const Batch &batch,
-          const Gathered<dim, typename Batch::Number> &sum, const double dt, const Lattice<dim> &lattice)
+  [[gnu::always_inline]] inline typename Batch::Number advance(const Scheme &scheme, const TransferArrays<dim> &arrays,
+                                                               const Batch                                 &batch,
+                                                               const Gathered<dim, typename Batch::Number> &sum,
+                                                               const double dt, const Lattice<dim> &lattice)
   {
     const auto x = load_vector<dim>(batch, arrays.position);
     store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/core/function.h>
+#include <talus/core/body_force.h>
 #include <talus/grid/grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/particles/working_set.h>
@@ -28,9 +28,10 @@ namespace Talus
 
     /** Eqs. (11)-(16): adds m_i, m_i v_i and f_i of this rank's particles to the nodes, copies included. */
     virtual void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                                  const ParsedVector<dim> &acceleration, const double time, Grid<dim> &grid) = 0;
+                                  const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) = 0;
 
-    /** Changes the sums at the nodes once their owners have all of them: velocities that are not momentum over mass. Collective. */
+    /** Changes the sums at the nodes once their owners have all of them: velocities that are not momentum over mass.
+     * Collective. */
     virtual void complete(Grid<dim> &) {}
 
     /**
