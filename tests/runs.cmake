@@ -86,6 +86,15 @@ foreach(case disk_TPIC disk_APIC footing still_water dam martin_moyce column_TPI
   endforeach()
 endforeach()
 
+# Manufactured solutions: orders.
+foreach(case vibration ring)
+  foreach(ranks 1 2)
+    talus_add_run(regression.${case}.mpirun=${ranks} ${ranks}
+      ${CMAKE_CURRENT_SOURCE_DIR}/regression/verification.py
+      $<TARGET_FILE:talus> ${work}/regression/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
+
 # Friction, damping and loads against closed forms.
 foreach(case incline_2d incline_3d damping energy bar_2d bar_3d pressure_2d pressure_3d wave_2d wave_3d layer)
   foreach(ranks 1 2)

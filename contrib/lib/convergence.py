@@ -1,0 +1,93 @@
+"""What benchmarks with a manufactured solution share: methods, errors of runs, observed orders, curves."""
+import csv
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+METHODS = {
+    "linear": {"Kernel/Type": "linear", "Kernel/Boundary treatment": "none", "Transfer/Type": "FLIP"},
+    "uGIMP": {"Kernel/Type": "uGIMP", "Kernel/Boundary treatment": "none", "Transfer/Type": "FLIP"},
+    "CPDI": {"Kernel/Type": "CPDI", "Transfer/Type": "FLIP"},
+    "CPLS": {"Kernel/Type": "CPDI", "Transfer/Type": "CPLS"},
+    # Not in the paper. Its own walls are faces of the grid, at which WLS corrects the kernel.
+    "TPIC": {"Kernel/Type": "quadratic B-spline", "Transfer/Type": "TPIC", "Kernel/Boundary treatment": "WLS"},
+}
+COLOURS = {"linear": "tab:gray", "uGIMP": "tab:green", "CPDI": "tab:blue", "CPLS": "tab:red", "TPIC": "tab:purple"}
+FIELDS = {"U": "error u", "V": "error v", "S": "error stress"}
+UNITS = {"U": "displacement [m]", "V": "velocity [m/s]", "S": "stress [Pa]"}
+
+
+def errors(result):
+    """The rows of verification.csv, of a quarter and of the end of the run: {"T/4": {"U": ...}, "T": ...}."""
+    path = result.directory / "verification.csv"
+    if result.status != 0 or not path.exists():
+        return {when: dict.fromkeys(FIELDS, math.nan) for when in ("T/4", "T")}
+    with open(path, newline="") as file:
+        rows = [{name.split(" [")[0]: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+    return {when: {field: row[column] for field, column in FIELDS.items()} for when, row in zip(("T/4", "T"), rows)}
+
+
+def order(coarse, fine, ratio=2.):
+    """Observed order between two levels of refinement."""
+    return math.log(coarse / fine) / math.log(ratio) if coarse > 0 and fine > 0 else math.nan
+
+
+def mean_order(values, ratio=2.):
+    """Observed order between the first and the last of some levels."""
+    return order(values[0], values[-1], ratio) / (len(values) - 1)
+
+
+def table(results, case_of, level_of):
+    """A row for each run, with the order from the run of the same case and twice the spacing."""
+    values = {(case_of(result), level_of(result)): errors(result) for result in results}
+    rows = []
+    for result in results:
+        row = dict(result.run.label)
+        for when in ("T/4", "T"):
+            here = values[case_of(result), level_of(result)][when]
+            coarser = values.get((case_of(result), level_of(result) // 2), {}).get(when)
+            for field in FIELDS:
+                row[f"{field} {when}"] = here[field]
+                row[f"order {field} {when}"] = order(coarser[field], here[field]) if coarser else math.nan
+        row["failed at"] = result.failure_time()
+        row["seconds"] = result.seconds
+        rows.append(row)
+    return rows
+
+
+def curves(path, columns, title, when, slope=2):
+    """
+    Errors over the spacing, a row for each field. `columns`: (title, {name: (spacings, list of errors(), style)}).
+    """
+    figure, axes = plt.subplots(len(FIELDS), len(columns), figsize=(3.4 * len(columns) + 0.6, 8.2), sharex="col",
+                                squeeze=False, layout="constrained")
+    for column, (name, lines) in enumerate(columns):
+        for row, field in enumerate(FIELDS):
+            axis = axes[row, column]
+            lowest = math.inf
+            for label, (spacings, values, style) in lines.items():
+                y = [value[when][field] for value in values]
+                axis.loglog(spacings, y, markersize=3, linewidth=1, label=label, **style)
+                finite = [value for value in y if value > 0]
+                lowest = min([lowest] + finite)
+            spacings = np.array(sorted({h for values in lines.values() for h in values[0]}))
+            if math.isfinite(lowest):
+                axis.loglog(spacings, 0.5 * lowest * (spacings / spacings[0])**slope, "k:", linewidth=1,
+                            label=f"order {slope}")
+            axis.set_ylabel(f"RMS error, {UNITS[field]}", fontsize=8)
+            axis.tick_params(labelsize=7)
+            axis.grid(alpha=0.3)
+        axes[0, column].set_title(name, fontsize=10)
+        axes[-1, column].set_xlabel("spacing h [m]")
+    axes[0, 0].legend(fontsize=6)
+    figure.suptitle(f"{title}, at {when.replace('T', 't = T', 1)}", fontsize=11)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def style(method, dash="-", marker="o"):
+    return {"color": COLOURS[method], "linestyle": dash, "marker": marker}
