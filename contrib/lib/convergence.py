@@ -9,8 +9,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 METHODS = {
-    "linear": {"Kernel/Type": "linear", "Transfer/Type": "FLIP"},
-    "uGIMP": {"Kernel/Type": "uGIMP", "Transfer/Type": "FLIP"},
+    "linear": {"Kernel/Type": "linear", "Kernel/Boundary treatment": "none", "Transfer/Type": "FLIP"},
+    "uGIMP": {"Kernel/Type": "uGIMP", "Kernel/Boundary treatment": "none", "Transfer/Type": "FLIP"},
     "CPDI": {"Kernel/Type": "CPDI", "Transfer/Type": "FLIP"},
     "CPLS": {"Kernel/Type": "CPDI", "Transfer/Type": "CPLS"},
     # Not in the paper. Its own walls are faces of the grid, at which WLS corrects the kernel.
