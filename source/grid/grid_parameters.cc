@@ -24,7 +24,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  Grid<dim>::Grid(const std::string &section, MPI_Comm communicator) :
+  Grid<dim>::Grid(const std::string &section, const Communicator &communicator) :
     ParameterAcceptor(section), communicator(communicator),
     triangulation(communicator, Triangulation<dim>::none,
                   parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
@@ -116,7 +116,7 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template Grid<dim>::Grid(const std::string &, MPI_Comm);                                                             \
+  template Grid<dim>::Grid(const std::string &, const Communicator &);                                                 \
   template void Grid<dim>::parse_parameters(ParameterHandler &);                                                       \
   template void Grid<dim>::check_memory() const;
   INSTANTIATE(2)

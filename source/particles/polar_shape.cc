@@ -81,9 +81,9 @@ namespace Talus
         return BoundingBox<dim>({lower, upper});
       }
 
-      unsigned int n_indices() const override
+      std::uint64_t n_indices() const override
       {
-        unsigned int n = 1;
+        std::uint64_t n = 1;
         for (const unsigned int count : counts)
           n *= count;
         return n;

@@ -9,6 +9,8 @@ template <int dim>
 void edge();
 template <int dim>
 void explicit_steps();
+template <int dim>
+void strays();
 
 int main(int argc, char **argv)
 {
@@ -21,5 +23,7 @@ int main(int argc, char **argv)
                     {"watch: at the edge, 2D", edge<2>},
                     {"watch: at the edge, 3D", edge<3>},
                     {"explicit steps, 2D", explicit_steps<2>},
-                    {"explicit steps, 3D", explicit_steps<3>}});
+                    {"explicit steps, 3D", explicit_steps<3>},
+                    {"strays, 2D", strays<2>},
+                    {"strays, 3D", strays<3>}});
 }

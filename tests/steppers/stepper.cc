@@ -23,13 +23,13 @@ void sweep()
   sweep.run(5, 2);
   check_true("blocks", calls == "a 0-2, b 0-2, a 2-4, b 2-4, a 4-5, b 4-5, ");
   sweep.run(5, 2);
-  check_true("are forgotten", calls.size() == 42);
+  check_true("are forgotten", calls.size() == 48);
   sweep.add(first, stage("c"));
   sweep.run(2, 2);
-  check_true("a sweep that was cut goes on", calls.substr(42) == "c 0-2, ");
+  check_true("a sweep that was cut goes on", calls.substr(48) == "c 0-2, ");
   sweep.add(first, stage("d"));
   sweep.run(0, 2);
-  check_true("no particles", calls.size() == 49);
+  check_true("no particles", calls.size() == 55);
 }
 
 /** A body in free flight: step size by Eqs. (35), (37), positions after some steps. */
@@ -74,5 +74,46 @@ void explicit_steps()
   }
 }
 
+/** A particle beyond the nodes of its rank would lose what it carries there: the next step refuses it. */
+template <int dim>
+void strays()
+{
+  auto       parameters = Parameters::from_text(section("Grid", set("Cells", coordinates<dim>({{8, 4, 4}}))) +
+                                                body_text(set("Upper corner", coordinates<dim>({{1, 1, 1}}))));
+  Model<dim> model(parameters, MPI_COMM_WORLD);
+  auto       stepper = parameters.make<Stepper<dim>>("/Run", "Stepper", "explicit", "");
+  parameters.parse();
+  model.create();
+  Timing     timing;
+  Report     report   = stepper->start(model, timing);
+  auto      &set      = model.particles;
+  double    *x        = set.component(set.position, 0);
+  const bool is_alone = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+  const auto refusal  = [&]() -> std::string {
+    try
+    {
+      stepper->advance(model, report, 0., 1e-6);
+    }
+    catch (const ExceptionBase &error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  check_true("a sound step", refusal().empty());
+  // Two ranks meet at x = 1/2.
+  x[0] = x[0] < 0.5 ? 0.9 : 0.1;
+  set.relocate();
+  check_true("across the ranks' border", is_alone || refusal().find("have strayed") != std::string::npos);
+  set.migrate();
+  check_true("after migration", refusal().empty());
+  x    = set.component(set.position, 0);
+  x[0] = 1.5;
+  set.relocate();
+  check_true("out of the grid", refusal().find("left the grid") != std::string::npos);
+}
+
 template void explicit_steps<2>();
 template void explicit_steps<3>();
+template void strays<2>();
+template void strays<3>();

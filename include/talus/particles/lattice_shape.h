@@ -16,8 +16,8 @@ namespace Talus
   public:
     explicit LatticeShape(const std::string &section);
 
-    void          create(const std::array<double, dim> &h) override;
-    void          visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
+    void create(const std::array<double, dim> &h) override;
+    void visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
     std::uint64_t n_indices() const override;
 
     /** Those of the lattice's boxes. */
