@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Manufactured solutions on coarse grids: errors and observed orders of CPLS and CPDI at the end of the run.
+"""Manufactured solutions: errors and observed orders of CPLS and CPDI at the end of the run.
 
 Usage: verification.py TALUS WORK_DIRECTORY CASE RANKS [MPIRUN ...]
 
@@ -39,9 +39,9 @@ def case_vibration(runs):
                       f"Bodies/square/Upper corner = 1, {h}", f"Run/Step size = {0.004 * h}",
                       f"Conditions/walls/Half spaces = x <= 0, x >= 1, y >= {-2 * h}")
 
-    levels = (16, 32, 64)
-    check_orders(runs, "CPLS, A = .1", [bar(n, "CPLS", 0.1) for n in levels], dict.fromkeys("UVS", 1.9))
-    small = {transfer: [bar(n, transfer, 1e-4) for n in levels] for transfer in ("CPLS", "FLIP")}
+    # On coarser grids U and S, which pass through zero at the end, fall faster and then slower than they should.
+    check_orders(runs, "CPLS, A = .1", [bar(n, "CPLS", 0.1) for n in (128, 256, 512)], dict.fromkeys("UVS", 1.9))
+    small = {transfer: [bar(n, transfer, 1e-4) for n in (64, 128, 256)] for transfer in ("CPLS", "FLIP")}
     for transfer, name in (("CPLS", "CPLS"), ("FLIP", "CPDI")):
         check_orders(runs, f"{name}, A = 1e-4", small[transfer], dict.fromkeys("UVS", 1.9))
 
