@@ -20,8 +20,9 @@ import runs
 SILENT = {"Output/Final state": "false", "Output/Time interval": 0, "Output/Step interval": 0,
           "Output/Statistics interval": 2147483647, "Output/Overwrite": "true"}
 
-KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP"}
-TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC"}
+KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP",
+           "cpdi": "CPDI"}
+TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC", "cpls": "CPLS"}
 TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none",
               "mirror": "mirror"}
 MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic"},
@@ -30,11 +31,17 @@ MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic
 TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
          "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
-         "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-wls-two"]
+         "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-wls-two", "cpdi-tpic-none-neo",
+         "cpdi-cpls-none-neo"]
 NOT_STEPS = {"set-up", "output", "finite element reference", "total"}
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 # Mirrors are at slip walls. Two materials, one in each half, take off together, so that particles change ranks.
 MIRROR = {"Conditions/floor/Type": "slip"}
+# Domains may reach below their floor: it lies inside the grid, and CPDI has no treatment.
+INNER_FLOOR = {2: {"Grid/Lower corner": "-0.02, -0.02", "Conditions/floor/Boundary ids": "",
+                   "Conditions/floor/Half spaces": "y <= 0"},
+               3: {"Grid/Lower corner": "-0.1, -0.1, -0.1", "Conditions/floor/Boundary ids": "",
+                   "Conditions/floor/Half spaces": "z <= 0"}}
 TWO = {"Materials/Names": "soil, stone", "Materials/stone/Type": "linear elastic", "Bodies/Names": "block, top",
        "Bodies/top/Material": "stone", "Bodies/top/Particles per cell and direction": 2}
 HALVES = {2: {"Bodies/block/Upper corner": "1, 0.5", "Bodies/top/Lower corner": "0, 0.5",
@@ -73,8 +80,8 @@ def table_row(name, dim, steps):
                   + "\n  ".join(", ".join(choices) for choices in (KERNELS, TRANSFERS, TREATMENTS, MATERIALS)))
     kernel, transfer, treatment, material = parts
     prm, default_steps = FILES[dim]
-    settings = {"Kernel/Type": KERNELS[kernel], "Kernel/Boundary treatment": TREATMENTS[treatment],
-                "Transfer/Type": TRANSFERS[transfer]}
+    settings = {"Kernel/Type": KERNELS[kernel], "Transfer/Type": TRANSFERS[transfer]}
+    settings.update(INNER_FLOOR[dim] if kernel == "cpdi" else {"Kernel/Boundary treatment": TREATMENTS[treatment]})
     settings.update({f"Materials/soil/{entry}": value for entry, value in MATERIALS[material].items()})
     settings.update(MIRROR if treatment == "mirror" else {})
     settings.update({**TWO, **HALVES[dim]} if material == "two" else {})
