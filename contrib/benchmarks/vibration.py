@@ -1,15 +1,20 @@
-"""Axis-aligned vibration, Tran et al. (2019), section 4.2: a bar, a square and a cube."""
+"""Axis-aligned vibration, Tran et al. (2019), section 4.2: a bar, a square and a cube, and symmetric parts of the latter."""
+import balance
 import convergence
+import numpy as np
 import report
 from convergence import METHODS
 from runs import Run
 
 TITLE = "manufactured solution, axis-aligned vibration (bar, square, cube): orders of linear, uGIMP, CPDI, CPLS, TPIC"
 
-SPEED = 100.
-LEVELS = {"bar": (8, 16, 32, 64, 128, 256, 512), "square": (8, 16, 32, 64), "cube": (8, 16, 32)}
+SPEED, DENSITY = 100., 1000.
+LEVELS = {"bar": (8, 16, 32, 64, 128, 256, 512), "square": (8, 16, 32, 64), "cube": (8, 16, 32), "octant": (8, 16, 32, 64)}
 AMPLITUDES = (1e-4, 0.1)
 PER_AXIS = (1, 2, 3)  # particles per cell and direction
+HALVINGS = (0, 1, 2, 3, 4)  # of the step, for the energy that is gained
+COARSE = 8
+LABELS = "kind", "method", "A", "ppc"
 
 
 def numbers(*values):
@@ -17,13 +22,16 @@ def numbers(*values):
 
 
 def geometry(kind, n, method):
-    """Grid, body and walls: two cells of grid beyond the walls, or none where a method has its walls at the grid's faces."""
+    """
+    Grid, body and walls: two cells of grid beyond the walls, or none where a method has its walls at the grid's faces.
+    Halves of an edge move symmetrically: a quadrant is a quarter of the square, an octant an eighth of the cube.
+    """
     h = 1 / n
     beyond = 0 if method == "TPIC" else 2 * h
-    dim = 3 if kind == "cube" else 2
-    low, high = [-beyond] * dim, [1 + beyond] * dim
-    body = [1.] * dim
-    planes = [f"{axis} {side}" for axis in "xyz"[:1 if kind == "bar" else dim] for side in ("<= 0", ">= 1")]
+    dim = 3 if kind in ("cube", "octant") else 2
+    edge = 0.5 if kind in ("quadrant", "octant") else 1.
+    low, high, body = [-beyond] * dim, [edge + beyond] * dim, [edge] * dim
+    planes = [f"{axis} {side}" for axis in "xyz"[:1 if kind == "bar" else dim] for side in ("<= 0", f">= {edge!r}")]
     ids = "0, 1" if kind == "bar" else "0, 1, 2, 3" if dim == 2 else "0, 1, 2, 3, 4, 5"
     if method == "TPIC":
         planes = []
@@ -33,56 +41,56 @@ def geometry(kind, n, method):
     walls = {"Conditions/walls/Half spaces": ", ".join(planes)}
     if method == "TPIC":
         walls["Conditions/walls/Boundary ids"] = ids
-    name = "cube" if kind == "cube" else "square"
+    name = "cube" if dim == 3 else "square"
     return {"Grid/Lower corner": numbers(*low), "Grid/Upper corner": numbers(*high), "Grid/Spacing": repr(h),
             f"Bodies/{name}/Upper corner": numbers(*body), **walls}
 
 
-def run(kind, n, method, amplitude=0.1, per_axis=2):
-    name = "cube" if kind == "cube" else "square"
-    settings = {**METHODS[method], **geometry(kind, n, method), "Run/Step size": repr(0.4 / n / SPEED),
-                "Verification/Amplitude": repr(amplitude), "Output/Statistics interval": max(1, n // 8),
+def run(kind, n, method, amplitude=0.1, per_axis=2, halvings=0):
+    name = "cube" if kind in ("cube", "octant") else "square"
+    settings = {**METHODS[method], **geometry(kind, n, method), "Run/Step size": repr(0.4 / n / SPEED / 2**halvings),
+                "Verification/Amplitude": repr(amplitude), "Output/Statistics interval": max(1, n // 8) * 2**halvings,
                 f"Bodies/{name}/Particles per cell and direction": per_axis}
     if kind == "bar":
         settings["Verification/Directions"] = "x"
+    if kind == "quadrant" and halvings == 0:
+        settings.update(balance.settings(steps=1))
     if method == "uGIMP":
         settings["Kernel/Half length"] = repr(0.5 / per_axis)
-    prm = "prm/vibration_3d.prm" if kind == "cube" else "prm/vibration.prm"
-    return Run(prm, settings, {"kind": kind, "method": method, "A": str(amplitude), "ppc": str(per_axis**2),
-                               "1/h": str(n)})
+    prm = "prm/vibration_3d.prm" if name == "cube" else "prm/vibration.prm"
+    label = kind if halvings == 0 else f"{kind}, dt/{2**halvings}"
+    return Run(prm, settings, {"kind": label, "method": method, "A": str(amplitude), "ppc": str(per_axis**2), "1/h": str(n)})
 
 
 def runs():
     bars = [run("bar", n, method, amplitude, per_axis) for amplitude in AMPLITUDES for per_axis in PER_AXIS
             for method in METHODS for n in LEVELS["bar"]]
     squares = [run("square", n, method) for method in METHODS for n in LEVELS["square"]]
+    quadrants = [run("quadrant", COARSE, method, halvings=k) for method in balance.METHODS for k in HALVINGS]
     cubes = [run("cube", n, method) for method in ("CPDI", "CPLS", "TPIC") for n in LEVELS["cube"]]
-    return bars + squares + cubes
-
-
-def level(result):
-    return int(result.run.label["1/h"])
-
-
-def case(result):
-    label = result.run.label
-    return label["kind"], label["method"], label["A"], label["ppc"]
+    octants = [run("octant", n, "CPLS") for n in LEVELS["octant"]]
+    return bars + squares + quadrants + cubes + octants
 
 
 def table(results):
-    return convergence.table(results, case, level)
+    return convergence.table(results, LABELS)
 
 
-def by_case(results):
-    values = {}
-    for result in results:
-        values.setdefault(case(result), {})[level(result)] = convergence.errors(result)
-    return values
+def exact(t, amplitude=0.1):
+    """Momentum along x and energies of the quadrant, by the midpoint rule."""
+    X = (np.arange(200) + 0.5) / 400
+    u, v = amplitude * np.sin(np.pi * SPEED * t), amplitude * np.pi * SPEED * np.cos(np.pi * SPEED * t)
+    stretch = 2 * np.pi * np.outer(u, np.cos(2 * np.pi * X))
+    lam, mu = balance.lame(1e7, 0.3)
+    W = balance.strain_energy(lam, mu, 1 + stretch[:, :, None], 1 - stretch[:, None, :])
+    sine = np.sin(2 * np.pi * X)
+    return {"momentum": DENSITY / 4 * v * np.mean(sine), "kinetic": DENSITY / 4 * v**2 * np.mean(sine**2),
+            "strain": np.mean(W, axis=(1, 2)) / 4}
 
 
 def figures(results):
-    values = by_case(results)
-    series = lambda case, field, levels, when="T/4": [values[case][n][when][field] for n in levels]
+    values = convergence.by_case(results, LABELS)
+    series = lambda case, field, levels, when="T/4": convergence.series(values[case], field, levels, when)
     found = []
     fine = (128, 256, 512)
     cpls, cpdi = ("bar", "CPLS", "0.1", "4"), ("bar", "CPDI", "0.1", "4")
@@ -107,7 +115,7 @@ def figures(results):
         for field in "UVS":
             order = convergence.mean_order(series(("bar", method, "0.0001", "4"), field, fine, "T"))
             found.append(report.near(f"bar, A = 1e-4, 4 a cell, {method}, order of {field} at T", order, 2, 0.1))
-    for kind, levels in (("square", (16, 32, 64)), ("cube", (8, 16, 32))):
+    for kind, levels in (("square", (16, 32, 64)), ("cube", (8, 16, 32)), ("octant", (16, 32, 64))):
         for field in "UVS":
             order = convergence.mean_order(series((kind, "CPLS", "0.1", "4"), field, levels, "T"))
             found.append(report.Figure(f"{kind}, A = .1, CPLS, order of {field} at T", order, lower=1.9))
@@ -115,7 +123,7 @@ def figures(results):
 
 
 def draw(results, path):
-    values = by_case(results)
+    values = convergence.by_case(results, LABELS)
 
     def lines(kind, amplitude, per_cells, methods=METHODS):
         marks = {"1": ("--", "s"), "4": ("-", "o"), "9": (":", "^")}
@@ -128,7 +136,11 @@ def draw(results, path):
         return found
 
     for when, target in (("T", path), ("T/4", path.parent / "vibration_quarter.png")):
-        convergence.curves(target, [("bar, A = 1e-4", lines("bar", "0.0001", "4")), ("bar, A = .1", lines("bar", "0.1", "4")),
-                                    ("bar, A = .1", lines("bar", "0.1", "149", ("CPDI", "CPLS"))),
-                                    ("square, A = .1", lines("square", "0.1", "4"))],
-                           "Axis-aligned vibration", when)
+        convergence.curves(target, [("bar, A = 1e-4", when, lines("bar", "0.0001", "4")),
+                                    ("bar, A = .1", when, lines("bar", "0.1", "4")),
+                                    ("bar, A = .1", when, lines("bar", "0.1", "149", ("CPDI", "CPLS"))),
+                                    ("square, A = .1", when, lines("square", "0.1", "4"))], "Axis-aligned vibration")
+    quadrants = {(result.run.label["kind"], result.run.label["method"]): result for result in results}
+    balance.draw(path.parent / "vibration_balance.png",
+                 f"Vibration of a square, A = .1, h = 1/{COARSE}, 4 a cell: one of its four quadrants",
+                 {method: quadrants["quadrant", method] for method in balance.METHODS}, "momentum x", "kg m/s", exact)

@@ -63,3 +63,6 @@ def draw(results, path):
     axes[0].legend(fontsize=7)
     figure.savefig(path, dpi=110)
     plt.close(figure)
+    shown = {result.run.label["method"]: result for result in results}
+    disks.draw_shapes(path.parent / "wall_shapes.png", {method: shown[method] for method in ("CPDI", "CPLS")},
+                      (0, 1.5, 3.5, 9.0), (0, 0.8), {"x": (0.05, 0.75), "y": (0.05, 0.75)})

@@ -41,31 +41,52 @@ def mean_order(values, ratio=2.):
     return order(values[0], values[-1], ratio) / (len(values) - 1)
 
 
-def table(results, case_of, level_of):
+def level(result):
+    """1/h of a run."""
+    return int(result.run.label["1/h"])
+
+
+def case(result, labels):
+    return tuple(result.run.label[name] for name in labels)
+
+
+def by_case(results, labels):
+    """{case: {1/h: errors()}}; a case is what the labels of these names are."""
+    values = {}
+    for result in results:
+        values.setdefault(case(result, labels), {})[level(result)] = errors(result)
+    return values
+
+
+def series(values, field, levels, when):
+    """A field's errors at some levels of one case."""
+    return [values[n][when][field] for n in levels]
+
+
+def table(results, labels):
     """A row for each run, with the order from the run of the same case and twice the spacing."""
-    values = {(case_of(result), level_of(result)): errors(result) for result in results}
+    values = by_case(results, labels)
     rows = []
     for result in results:
-        row = dict(result.run.label)
+        row, here = dict(result.run.label), values[case(result, labels)]
         for when in ("T/4", "T"):
-            here = values[case_of(result), level_of(result)][when]
-            coarser = values.get((case_of(result), level_of(result) // 2), {}).get(when)
             for field in FIELDS:
-                row[f"{field} {when}"] = here[field]
-                row[f"order {field} {when}"] = order(coarser[field], here[field]) if coarser else math.nan
+                fine = row[f"{field} {when}"] = here[level(result)][when][field]
+                coarse = here[level(result) // 2][when][field] if level(result) // 2 in here else math.nan
+                row[f"order {field} {when}"] = order(coarse, fine)
         row["failed at"] = result.failure_time()
         row["seconds"] = result.seconds
         rows.append(row)
     return rows
 
 
-def curves(path, columns, title, when, slope=2):
+def curves(path, columns, title, slope=2):
     """
-    Errors over the spacing, a row for each field. `columns`: (title, {name: (spacings, list of errors(), style)}).
+    Errors over the spacing, a row for each field. `columns`: (title, "T" or "T/4", {name: (spacings, errors(), style)}).
     """
     figure, axes = plt.subplots(len(FIELDS), len(columns), figsize=(3.4 * len(columns) + 0.6, 8.2), sharex="col",
                                 squeeze=False, layout="constrained")
-    for column, (name, lines) in enumerate(columns):
+    for column, (name, when, lines) in enumerate(columns):
         for row, field in enumerate(FIELDS):
             axis = axes[row, column]
             lowest = math.inf
@@ -78,13 +99,15 @@ def curves(path, columns, title, when, slope=2):
             if math.isfinite(lowest):
                 axis.loglog(spacings, 0.5 * lowest * (spacings / spacings[0])**slope, "k:", linewidth=1,
                             label=f"order {slope}")
+            axis.set_xticks(spacings, [f"1/{round(1 / h)}" for h in spacings])
+            axis.set_xticks([], minor=True)
             axis.set_ylabel(f"RMS error, {UNITS[field]}", fontsize=8)
             axis.tick_params(labelsize=7)
             axis.grid(alpha=0.3)
-        axes[0, column].set_title(name, fontsize=10)
+        axes[0, column].set_title(f"{name}, {when.replace('T', 't = T', 1)}", fontsize=10)
         axes[-1, column].set_xlabel("spacing h [m]")
     axes[0, 0].legend(fontsize=6)
-    figure.suptitle(f"{title}, at {when.replace('T', 't = T', 1)}", fontsize=11)
+    figure.suptitle(title, fontsize=11)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
