@@ -152,11 +152,11 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::update_velocity(const double dt)
+  void Grid<dim>::update_velocity(const double dt, const std::vector<unsigned int> &some)
   {
     using Fields  = NodalFields<dim>;
     lost_momentum = 0;
-    for (const unsigned int i : active_nodes)
+    for (const unsigned int i : some)
     {
       double      *values = fields[i];
       const double m      = values[Fields::mass];

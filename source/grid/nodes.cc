@@ -36,4 +36,16 @@ namespace Talus
       from += n;
     }
   }
+
+  void Nodes::reinit(const unsigned int n_owned, const std::vector<unsigned int> &places, const std::size_t n_places,
+                     const std::vector<Neighbour> &copied_by, const std::vector<Neighbour> &copied_from,
+                     const Communicator &communicator)
+  {
+    n_owned_nodes      = n_owned;
+    n_all_places       = n_places;
+    this->places       = places;
+    this->copied_by    = copied_by;
+    this->copied_from  = copied_from;
+    this->communicator = communicator;
+  }
 } // namespace Talus

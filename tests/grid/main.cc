@@ -10,6 +10,7 @@ DECLARE(exchange)
 DECLARE(layers)
 DECLARE(coverage)
 DECLARE(velocity_update)
+DECLARE(walls)
 DECLARE(activity)
 DECLARE(grid_errors)
 
@@ -31,6 +32,8 @@ int main(int argc, char **argv)
                     {"velocity update 2D", velocity_update<2>},
                     {"velocity update 3D", velocity_update<3>},
                     {"activity 2D", activity<2>},
+                    {"walls 2D", walls<2>},
+                    {"walls 3D", walls<3>},
                     {"activity 3D", activity<3>},
                     {"errors 2D", grid_errors<2>},
                     {"errors 3D", grid_errors<3>}});

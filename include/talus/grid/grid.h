@@ -38,7 +38,10 @@ namespace Talus
     void clear();
 
     /** Eqs. (20)-(21) of the active nodes: v_i += dt f_i / m_i where m_i > `mass_floor`; elsewhere v_i = 0. */
-    void update_velocity(const double dt);
+    void update_velocity(const double dt) { update_velocity(dt, active_nodes); }
+
+    /** The same of some of this rank's nodes. */
+    void update_velocity(const double dt, const std::vector<unsigned int> &some);
 
     /**
      * Makes active what material may reach: all nodes i with `first` true at one of the lattice indices

@@ -42,6 +42,11 @@ namespace Talus
     std::vector<Neighbour> copied_from; // copies of nodes that the neighbour owns
     Communicator           communicator;
 
+    /** Nodes at the given places; the first of them this rank owns, and who shares which is known. */
+    void reinit(const unsigned int n_owned, const std::vector<unsigned int> &places, const std::size_t n_places,
+                const std::vector<Neighbour> &copied_by, const std::vector<Neighbour> &copied_from,
+                const Communicator &communicator);
+
   private:
     unsigned int              n_owned_nodes = 0;
     std::size_t               n_all_places  = 0;

@@ -1,0 +1,418 @@
+#include <talus/grid/walls.h>
+
+#include "../setup.h"
+
+#include <random>
+
+using namespace Test;
+using namespace dealii;
+
+namespace
+{
+  using Vector = std::vector<double>;
+
+  /**
+   * The nodes of a small box and its ghosts as one list that every rank has, with the matrix C of all rows: built here
+   * once more, a dense row at a time.
+   */
+  template <int dim>
+  class Dense
+  {
+  public:
+    using Index = typename Lattice<dim>::Index;
+
+    explicit Dense(const Index &n_cells) : n_cells(n_cells)
+    {
+      size = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        size *= n_cells[d] + 3;
+      for (unsigned int i = 0; i < size; ++i)
+      {
+        nodes.push_back(index(i));
+        is_real.push_back(true);
+        is_at_face.push_back(false);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const int at  = nodes[i][d];
+          is_real[i]    = is_real[i] && at >= 0 && at <= n_cells[d];
+          is_at_face[i] = is_at_face[i] || at == 0 || at == n_cells[d];
+        }
+        is_at_face[i] = is_at_face[i] && is_real[i];
+      }
+      held.assign(size, {});
+    }
+
+    unsigned int number(const Index &index) const
+    {
+      unsigned int i = 0;
+      for (unsigned int d = dim; d-- > 0;)
+        i = i * (n_cells[d] + 3) + index[d] + 1;
+      return i;
+    }
+
+    /** Row of a node: coefficients of all nodes of the list. */
+    Vector row(const Index &at, const unsigned int c) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (at[d] < 0 || at[d] > n_cells[d])
+        {
+          Index w = at, q = at;
+          w[d]             = std::min(std::max(at[d], 0), n_cells[d]);
+          q[d]             = at[d] < 0 ? 1 : n_cells[d] - 1;
+          const auto &wall = held[number(clamped(w, n_cells))];
+          Vector      sum  = row(q, c);
+          if (c != d && wall[d] && !wall[c])
+            return sum;
+          const Vector of_w = row(w, c);
+          for (unsigned int i = 0; i < size; ++i)
+            sum[i] = 2 * of_w[i] - sum[i];
+          return sum;
+        }
+      Vector unit(size, 0.);
+      unit[number(at)] = 1;
+      return unit;
+    }
+
+    void find_rows()
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        C[c].clear();
+        for (unsigned int i = 0; i < size; ++i)
+          C[c].push_back(row(nodes[i], c));
+      }
+    }
+
+    /** C^T x. */
+    Vector fold(const unsigned int c, const Vector &x) const
+    {
+      Vector sum(size, 0.);
+      for (unsigned int i = 0; i < size; ++i)
+        for (unsigned int j = 0; j < size; ++j)
+          sum[j] += C[c][i][j] * x[i];
+      return sum;
+    }
+
+    Index                                n_cells;
+    unsigned int                         size = 0;
+    std::vector<Index>                   nodes;
+    std::vector<bool>                    is_real, is_at_face;
+    std::vector<std::array<bool, dim>>   held;
+    std::array<std::vector<Vector>, dim> C;
+
+  private:
+    Index index(unsigned int i) const
+    {
+      Index result;
+      for (unsigned int d = 0; d < dim; ++d, i /= n_cells[d - 1] + 3)
+        result[d] = static_cast<int>(i % (n_cells[d] + 3)) - 1;
+      return result;
+    }
+  };
+
+  enum class Kind
+  {
+    any,    // all together
+    sticky, // held in all components or in none
+    slip    // every face slips, and nothing else
+  };
+
+  /** One box with walls, and what a step makes of masses, momenta and forces there. */
+  template <int dim>
+  class Box
+  {
+  public:
+    using Index  = typename Lattice<dim>::Index;
+    using Fields = NodalFields<dim>;
+
+    explicit Box(const std::array<int, 3> &cells) :
+      setup(section("Grid", set("Cells", coordinates<dim>({{1. * cells[0], 1. * cells[1], 1. * cells[2]}})))),
+      dense(setup.grid.lattice.n_cells), mass(dense.size), v_h(dim, Vector(dense.size, 0.))
+    {
+      walls.attach(setup.grid);
+      momentum = force = velocity = increment = impulse = v_h;
+    }
+
+    double uniform(const double from, const double to) { return std::uniform_real_distribution<>(from, to)(random); }
+
+    /** What is held where: the same on all ranks. */
+    void choose(const unsigned int seed, const Kind kind)
+    {
+      random.seed(seed);
+      for (unsigned int i = 0; i < dense.size; ++i)
+      {
+        const double dice = uniform(0, 1);
+        dense.held[i].fill(false);
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          const bool is_normal = dense.nodes[i][c] == 0 || dense.nodes[i][c] == dense.n_cells[c];
+          const bool is_odd    = uniform(0, 1) < 0.5;
+          if (!dense.is_real[i] || (!dense.is_at_face[i] && (kind != Kind::any || dice > 0.1)))
+            continue;
+          dense.held[i][c] = kind == Kind::slip   ? is_normal :
+                             kind == Kind::sticky ? dice < 0.4 :
+                             dice < 0.3           ? is_normal :
+                             dice < 0.5           ? true :
+                             dice < 0.7           ? is_odd :
+                                                    false;
+          v_h[c][i]        = uniform(-1, 1);
+        }
+      }
+      dense.find_rows();
+    }
+
+    /** A step; `is_moving`: with the velocities v_h of what is held, else 0. What the ranks add differs. */
+    void step(const double dt, const bool is_moving)
+    {
+      auto &grid = setup.grid;
+      grid.clear();
+      walls.clear();
+      const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      std::mt19937       own(7 * rank + 1);
+      Vector             share(dense.size), sum(dense.size);
+      for (unsigned int i = 0; i < dense.size; ++i)
+        share[i] = node(i) ? std::uniform_real_distribution<>(0.1, 1)(own) : 0.;
+      Utilities::MPI::sum(share, MPI_COMM_WORLD, sum);
+      for (unsigned int i = 0; i < dense.size; ++i)
+        if (double *to = node(i))
+        {
+          to[Fields::mass] = share[i] / sum[i] * mass[i];
+          for (unsigned int c = 0; c < dim; ++c)
+          {
+            to[Fields::momentum + c] = share[i] / sum[i] * momentum[c][i];
+            to[Fields::force + c]    = share[i] / sum[i] * force[c][i];
+          }
+        }
+      grid.fields.add_copies_to_owners();
+      walls.collect();
+      prescribed.clear(grid.fields.n_owned());
+      for (unsigned int r = 0; r < grid.fields.n_owned(); ++r)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const unsigned int i = dense.number(grid.node_index[r]); dense.held[i][c])
+            prescribed.hold(r, c, is_moving ? v_h[c][i] : 0.);
+      walls.solve(prescribed, dt, 0.);
+      grid.fields.update_copies();
+      walls.fill();
+      read();
+    }
+
+    /** Masses in (0, 1), every fifth 0 if `has_gaps`, and the momentum of velocity(c, i). */
+    template <class Velocity>
+    void fill(const bool has_gaps, const bool has_forces, const Velocity &v)
+    {
+      for (unsigned int i = 0; i < dense.size; ++i)
+      {
+        mass[i] = uniform(0, 1);
+        if (has_gaps && uniform(0, 1) < 0.2)
+          mass[i] = 0;
+        move(i, v);
+        for (unsigned int c = 0; c < dim; ++c)
+          force[c][i] = has_forces ? mass[i] * uniform(-1, 1) : 0.;
+      }
+    }
+
+    template <class Velocity>
+    void move(const unsigned int i, const Velocity &v)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        momentum[c][i] = mass[i] * v(c, i);
+    }
+
+    Setup<dim>          setup;
+    Walls<dim>          walls;
+    Dense<dim>          dense;
+    Prescribed<dim>     prescribed;
+    Vector              mass; // of all nodes, by their number in the dense list
+    std::vector<Vector> v_h, momentum, force, velocity, increment, impulse;
+    double              copy_error = 0; // largest difference between a node's values on two ranks
+
+  private:
+    /** Numbers of a node or a ghost, null where this rank does not know it. */
+    double *node(const unsigned int i)
+    {
+      const auto &lattice = setup.grid.lattice;
+      if (lattice.node_at(clamped(dense.nodes[i], dense.n_cells)) == lattice.missing)
+        return nullptr;
+      return setup.grid.fields.at_place(lattice.table_index(dense.nodes[i]));
+    }
+
+    void read()
+    {
+      const auto &grid = setup.grid;
+      copy_error       = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        Vector v(dense.size, 0.), dv = v, J = v;
+        for (unsigned int i = 0; i < dense.size; ++i)
+          if (grid.lattice.node_at(clamped(dense.nodes[i], dense.n_cells)) < grid.fields.n_owned())
+          {
+            v[i]  = node(i)[Fields::velocity + c];
+            dv[i] = node(i)[Fields::increment + c];
+          }
+        for (const auto &one : prescribed.nodes)
+          J[dense.number(grid.node_index[one.node])] = one.impulse[c];
+        Utilities::MPI::sum(v, MPI_COMM_WORLD, velocity[c]);
+        Utilities::MPI::sum(dv, MPI_COMM_WORLD, increment[c]);
+        Utilities::MPI::sum(J, MPI_COMM_WORLD, impulse[c]);
+        for (unsigned int i = 0; i < dense.size; ++i)
+          if (const double *here = node(i))
+          {
+            raise(copy_error, here[Fields::velocity + c] - velocity[c][i]);
+            raise(copy_error, here[Fields::increment + c] - increment[c][i]);
+          }
+      }
+    }
+
+    std::mt19937 random;
+  };
+
+  struct Errors
+  {
+    double copies = 0, fill = 0, held = 0, increment = 0, residual = 0, impulse = 0, loss = 0, energy = 0, symmetry = 0;
+  };
+
+  /** What must hold after a step, whatever is held: all but the energy. */
+  template <int dim>
+  void look(Box<dim> &box, const double dt, const bool is_moving, Errors &errors)
+  {
+    const auto &dense = box.dense;
+    raise(errors.copies, box.copy_error);
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      const Vector &v = box.velocity[c];
+      Vector        rest(dense.size);
+      double        lost = 0, taken = 0;
+      for (unsigned int i = 0; i < dense.size; ++i)
+      {
+        double filled = 0;
+        for (unsigned int j = 0; j < dense.size; ++j)
+          filled += dense.C[c][i][j] * v[j];
+        raise(errors.fill, filled - v[i]);
+        if (dense.is_real[i] && dense.held[i][c])
+          raise(errors.held, v[i] - (is_moving ? box.v_h[c][i] : 0.));
+        rest[i] = box.momentum[c][i] + dt * box.force[c][i] - box.mass[i] * v[i];
+        lost += rest[i];
+        if (box.mass[i] > 0)
+          raise(errors.increment, v[i] - box.momentum[c][i] / box.mass[i] - box.increment[c][i]);
+      }
+      const Vector folded = dense.fold(c, rest);
+      for (unsigned int i = 0; i < dense.size; ++i)
+        if (dense.is_real[i])
+        {
+          if (!dense.held[i][c])
+            raise(errors.residual, folded[i]);
+          else
+          {
+            raise(errors.impulse, folded[i] - box.impulse[c][i]);
+            taken += box.impulse[c][i];
+          }
+        }
+      raise(errors.loss, lost - taken);
+    }
+  }
+
+  /** Kinetic energy of a step without forces at walls at rest, and the map's symmetry in the norm of m. */
+  template <int dim>
+  void look_at_map(Box<dim> &box, Errors &errors)
+  {
+    const auto energy = [&](const std::vector<Vector> &a, const std::vector<Vector> &b) {
+      double sum = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < box.dense.size; ++i)
+          sum += box.mass[i] * a[c][i] * b[c][i];
+      return sum;
+    };
+    std::vector<Vector> fields[2], images[2];
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      fields[k] = box.v_h;
+      for (unsigned int i = 0; i < box.dense.size; ++i)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          fields[k][c][i] = box.uniform(-1, 1);
+        box.move(i, [&](const unsigned int c, const unsigned int i) { return fields[k][c][i]; });
+      }
+      box.step(0., false);
+      images[k] = box.velocity;
+      raise(errors.energy, std::max(0., energy(images[k], images[k]) / energy(fields[k], fields[k]) - 1));
+    }
+    raise(errors.symmetry, energy(images[0], fields[1]) - energy(images[1], fields[0]));
+  }
+
+  /** v = a + A x where the conditions allow it: kept to round-off. */
+  template <int dim>
+  double linear_error(Box<dim> &box, const unsigned int seed, const Kind kind)
+  {
+    box.choose(seed, kind);
+    Tensor<2, dim> A;
+    Tensor<1, dim> a;
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      a[c] = box.uniform(-1, 1);
+      for (unsigned int d = 0; d < dim; ++d)
+        A[c][d] = kind == Kind::slip && c != d ? 0. : box.uniform(-1, 1); // no d v_t / d n where walls slip
+    }
+    const auto v = [&](const unsigned int c, const unsigned int i) {
+      double sum = a[c];
+      for (unsigned int d = 0; d < dim; ++d)
+        sum += A[c][d] * box.dense.nodes[i][d];
+      return sum;
+    };
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < box.dense.size; ++i)
+        box.v_h[c][i] = v(c, i);
+    box.fill(false, false, v);
+    for (double &m : box.mass)
+      m += 0.1;
+    for (unsigned int i = 0; i < box.dense.size; ++i)
+      box.move(i, v);
+    box.step(0., true);
+    double error = 0;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < box.dense.size; ++i)
+        raise(error, box.velocity[c][i] - v(c, i));
+    return error;
+  }
+} // namespace
+
+/** Random patterns of held, slipping, moving and open nodes of the faces, and of held nodes inside. */
+template <int dim>
+void walls()
+{
+  const std::vector<std::array<int, 3>> boxes =
+    dim == 2 ? std::vector<std::array<int, 3>>{{{1, 1, 0}}, {{1, 4, 0}}, {{2, 2, 0}}, {{3, 1, 0}}, {{2, 5, 0}},
+                                               {{3, 3, 0}}, {{5, 4, 0}}, {{4, 2, 0}}, {{5, 5, 0}}} :
+               std::vector<std::array<int, 3>>{{{1, 1, 1}}, {{2, 1, 3}}, {{2, 2, 2}}, {{3, 2, 1}},
+                                               {{1, 4, 1}}, {{3, 3, 3}}, {{2, 4, 3}}};
+  Errors errors;
+  double linear = 0;
+  for (const auto &cells : boxes)
+  {
+    Box<dim> box(cells);
+    for (unsigned int k = 0; k < (dim == 2 ? 60 : 25); ++k)
+    {
+      box.choose(k + 1, Kind::any);
+      box.fill(k % 2 == 0, true, [&](unsigned int, unsigned int) { return box.uniform(-1, 1); });
+      box.step(0.3, true);
+      look(box, 0.3, true, errors);
+      if (k % 5 == 0)
+        look_at_map(box, errors);
+    }
+    for (unsigned int k = 0; k < 10; ++k)
+      for (const Kind kind : {Kind::sticky, Kind::slip})
+        raise(linear, linear_error(box, k, kind));
+  }
+  check("the same on all ranks", errors.copies, 1e-13);
+  check("ghosts are rows of real nodes", errors.fill, 1e-12);
+  check("held velocities", errors.held, 1e-15);
+  check("increments", errors.increment, 1e-12);
+  check("residual of free unknowns", errors.residual, 1e-12);
+  check("impulse of each held component", errors.impulse, 1e-12);
+  check("loss - reaction", errors.loss, 1e-12);
+  check("growth of energy", errors.energy, 1e-12);
+  check("symmetry in the norm of m", errors.symmetry, 1e-12);
+  check("linear fields", linear, 1e-13);
+}
+
+template void walls<2>();
+template void walls<3>();
