@@ -1,7 +1,7 @@
 #include <talus/grid/walls.h>
 
 #include <algorithm>
-#include <functional>
+#include <numeric>
 
 namespace Talus
 {
@@ -115,6 +115,15 @@ namespace Talus
     first_ghost.push_back(ghost_place.size());
     if (n_owned_reals == real_node.size())
       n_owned_ghosts = ghost_place.size();
+
+    // Places in the tables of a lattice are in the same order on all ranks.
+    const auto sort = [](std::vector<unsigned int> &order, const std::size_t n, const auto &place) {
+      order.resize(n);
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) { return place(a) < place(b); });
+    };
+    sort(real_order, real_node.size(), [&](const unsigned int r) { return grid->nodes.place(real_node[r]); });
+    sort(ghost_order, ghost_place.size(), [&](const unsigned int g) { return ghost_place[g]; });
   }
 
   template <int dim>
@@ -214,26 +223,26 @@ namespace Talus
           continue;
         if (first != none)
         {
-          is_joined[first] = is_joined[r]      = true;
-          root[std::max(find(first), find(r))] = std::min(find(first), find(r));
+          is_joined[first] = is_joined[r] = true;
+          root[find(r)]                   = find(first);
         }
         first = r;
       }
     }
-    for (unsigned int r = 0; r < root.size(); ++r)
+    for (const unsigned int r : real_order)
       if (is_joined[r])
       {
-        const unsigned int at = find(r);
-        if (at == r) // the lowest of its block
+        unsigned int &number = of.block[find(r)];
+        if (number == none)
         {
-          of.block[r] = of.blocks.size();
+          number = of.blocks.size();
           of.blocks.push_back({});
         }
-        of.block[r] = of.block[at];
-        of.local[r] = of.blocks[of.block[r]].reals.size();
-        of.blocks[of.block[r]].reals.push_back(r);
+        of.block[r] = number;
+        of.local[r] = of.blocks[number].reals.size();
+        of.blocks[number].reals.push_back(r);
       }
-    for (unsigned int g = 0; g < ghost_place.size(); ++g)
+    for (const unsigned int g : ghost_order)
       for (unsigned int e = of.begin[g]; e < of.begin[g + 1]; ++e)
         if (const unsigned int block = of.block[of.entries[e].real]; block != none)
         {

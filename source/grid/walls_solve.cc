@@ -49,7 +49,7 @@ namespace Talus
       of.diagonal[r] = mass(r);
       of.right[r]    = impulse(r, c, dt);
     }
-    for (unsigned int g = 0; g < ghost_place.size(); ++g)
+    for (const unsigned int g : ghost_order)
     {
       const double m = mass(ghost(g));
       double       Q = impulse(ghost(g), c, dt);
@@ -176,8 +176,9 @@ namespace Talus
       if (c != n && press.fixes[c])
       {
         Unknowns &of   = unknowns[c];
-        press.fixes[c] = of.is_fixed[r] = false;
-        press.load[c]                   = limit * impulse[c] / impulse.norm();
+        press.fixes[c] = false;
+        of.is_fixed[r] = false;
+        press.load[c]  = limit * impulse[c] / impulse.norm();
         of.load[r] += press.load[c];
         solve_block(c, rows[c].block[r], of.v);
       }

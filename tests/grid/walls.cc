@@ -196,16 +196,15 @@ namespace
       read();
     }
 
-    /** Masses in (0, 1), every fifth 0 if `has_gaps`, and the momentum of velocity(c, i). */
-    template <class Velocity>
-    void fill(const bool has_gaps, const bool has_forces, const Velocity &v)
+    /** Masses in (0, 1), every fifth 0 if `has_gaps`, and velocities in (-1, 1). */
+    void fill(const bool has_gaps, const bool has_forces)
     {
       for (unsigned int i = 0; i < dense.size; ++i)
       {
         mass[i] = uniform(0, 1);
         if (has_gaps && uniform(0, 1) < 0.2)
           mass[i] = 0;
-        move(i, v);
+        move(i, [&](unsigned int, unsigned int) { return uniform(-1, 1); });
         for (unsigned int c = 0; c < dim; ++c)
           force[c][i] = has_forces ? mass[i] * uniform(-1, 1) : 0.;
       }
@@ -361,7 +360,7 @@ namespace
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int i = 0; i < box.dense.size; ++i)
         box.v_h[c][i] = v(c, i);
-    box.fill(false, false, v);
+    box.fill(false, false);
     for (double &m : box.mass)
       m += 0.1;
     for (unsigned int i = 0; i < box.dense.size; ++i)
@@ -392,7 +391,7 @@ void walls()
     for (unsigned int k = 0; k < (dim == 2 ? 60 : 25); ++k)
     {
       box.choose(k + 1, Kind::any);
-      box.fill(k % 2 == 0, true, [&](unsigned int, unsigned int) { return box.uniform(-1, 1); });
+      box.fill(k % 2 == 0, true);
       box.step(0.3, true);
       look(box, 0.3, true, errors);
       if (k % 5 == 0)

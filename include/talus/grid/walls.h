@@ -18,7 +18,7 @@ namespace Talus
    *
    * The matrix is diagonal but at free nodes near faces that nothing holds: a pair on the line across the face, 4 and 8
    * nodes at edges and corners, more where opposite faces are nearer than four cells. Each such block is solved by
-   * every rank that owns a node of it, from the same numbers: it takes one message to know them.
+   * every rank that owns a node of it, from the same numbers in the same order: it takes one message to know them.
    *
    * Wall nodes are those near faces, and those of which conditions ask anything; all others are plain.
    * Theory: doc/walls.md. Test: tests/grid/walls.cc.
@@ -160,6 +160,9 @@ namespace Talus
     std::vector<unsigned int> first_ghost; // of each real node
     std::vector<char>         is_asked;    // nodes away from faces of which conditions ask something
     unsigned int              n_owned_reals = 0, n_owned_ghosts = 0;
+
+    // In the order of the lattice: what ranks solve more than once they must sum, and leave out, alike.
+    std::vector<unsigned int> real_order, ghost_order;
 
     Nodes               ghost_nodes, wall_nodes;
     NodalExchange       ghost_exchange{8}, exchange{n_lanes};
