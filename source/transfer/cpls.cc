@@ -148,8 +148,7 @@ namespace Talus
 
     const RegisterDimensions<Transfer, Cpls> registration(
       "CPLS",
-      "velocities of nodes by moving least squares over CPDI domains, then FLIP. The nodes' momentum is not exactly that of "
-      "the particles: off by .23 h^2 times the integral of rho laplace(v). In impacts with small steps energy grows: two "
-      "disks gain 1, 4 and 6 % with dt sqrt(E / rho) / h = .05, .025 and .0125, and lose 2 % with .1");
+      "moving least squares over CPDI domains, then FLIP; the nodes' momentum is off by .23 h^2 times the integral of rho "
+      "laplace(v), and impacts with small steps gain energy: 1 % with dt sqrt(E/rho)/h = .05, 6 % with .0125");
   } // namespace
 } // namespace Talus
