@@ -2,6 +2,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -95,16 +96,34 @@ namespace Talus
   template <int dim>
   void LatticeShape<dim>::visit(const BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const
   {
-    const auto           corners = box.get_boundary_points();
-    std::array<int, dim> begin, end;
+    const auto corners = box.get_boundary_points();
+    Index      begin, end;
     for (unsigned int d = 0; d < dim; ++d)
     {
       // A jittered point strays from its lattice point by half a spacing at most.
-      begin[d] = std::max(0., std::floor((corners.first[d] - lower[d]) / spacing[d] - 1));
-      end[d]   = std::min<double>(counts[d], std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1));
+      begin[d] = std::clamp<double>(std::floor((corners.first[d] - lower[d]) / spacing[d] - 1), 0, counts[d]);
+      end[d]   = std::clamp<double>(std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1), 0, counts[d]);
+    }
+    visit_range(begin, end, visitor);
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::visit_part(const unsigned int part, const unsigned int n_parts,
+                                     const typename Shape<dim>::Visitor &visitor) const
+  {
+    Index begin = {}, end = counts;
+    begin[dim - 1] = this->part_begin(counts[dim - 1], part, n_parts);
+    end[dim - 1]   = this->part_begin(counts[dim - 1], part + 1, n_parts);
+    visit_range(begin, end, visitor);
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::visit_range(const Index &begin, const Index &end,
+                                      const typename Shape<dim>::Visitor &visitor) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
       if (begin[d] >= end[d])
         return;
-    }
     double volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       volume *= spacing[d];

@@ -43,11 +43,22 @@ namespace Talus
     bool        strays  = false;
     for_each_batch(begin, end, [&](const auto batch) {
       std::array<Number, dim> coordinate;
-      auto                    is_outside = Number(1.) < Number(0.);
-      for (unsigned int d = 0; d < dim; ++d)
+      const auto              find = [&] {
+        auto is_outside = Number(1.) < Number(0.);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
+          is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
+        }
+        return is_outside;
+      };
+      auto is_outside = find();
+      if (any(is_outside))
       {
-        coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
-        is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (is_outside[l])
+            put_on_face(batch.p + l);
+        is_outside = find();
       }
       if (any(is_outside))
       {
@@ -81,6 +92,15 @@ namespace Talus
     needs_synchronise = needs_synchronise || strays;
     if (reach.at_corners)
       look_at_corners(begin, end);
+  }
+
+  template <int dim>
+  void Particles<dim>::put_on_face(const unsigned int p)
+  {
+    Tensor<1, dim> x = this->vector(this->position, p);
+    if (grid->lattice.enter(x))
+      for (unsigned int d = 0; d < dim; ++d)
+        this->component(this->position, d)[p] = x[d];
   }
 
   template <int dim>

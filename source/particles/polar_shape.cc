@@ -125,6 +125,14 @@ namespace Talus
                 visit_point(i, j, k, visitor);
       }
 
+      void visit_part(const unsigned int part, const unsigned int n_parts,
+                      const typename Shape<dim>::Visitor &visitor) const override
+      {
+        const std::uint64_t end = this->part_begin(n_indices(), part + 1, n_parts);
+        for (std::uint64_t index = this->part_begin(n_indices(), part, n_parts); index < end; ++index)
+          visit_point(index % counts[0], index / counts[0] % counts[1], index / counts[0] / counts[1], visitor);
+      }
+
     private:
       struct Range
       {

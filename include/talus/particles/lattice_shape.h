@@ -18,6 +18,8 @@ namespace Talus
 
     void create(const std::array<double, dim> &h) override;
     void visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
+    void visit_part(const unsigned int part, const unsigned int n_parts,
+                    const typename Shape<dim>::Visitor &visitor) const override;
     std::uint64_t n_indices() const override;
 
     /** Those of the lattice's boxes. */
@@ -28,6 +30,11 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
   private:
+    using Index = std::array<int, dim>;
+
+    /** Visits the points of the lattice from `begin` up to `end` on each axis. */
+    void visit_range(const Index &begin, const Index &end, const typename Shape<dim>::Visitor &visitor) const;
+
     unsigned int        points_per_cell = 2;
     std::vector<double> offset          = std::vector<double>(dim, 0.);
     double              jitter          = 0;

@@ -22,8 +22,8 @@ namespace Talus
   {
   public:
     /**
-     * Creates the particles of all bodies in the cells this rank owns. Throws
-     * EntryError for an empty body and for one that does not lie in the grid.
+     * Creates the particles of all bodies in the cells this rank owns. Throws EntryError for an empty body, for one that
+     * does not lie in the grid, and where number or volume of a body's particles are not those of its shape. Collective.
      */
     void create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
                 const std::vector<std::unique_ptr<Material>> &materials);
@@ -40,7 +40,8 @@ namespace Talus
 
     /**
      * Finds out whether the particles begin .. end - 1 can stay with this rank, and
-     * whether one has left the grid. What is found is acted on where the ranks meet next.
+     * whether one has left the grid; who is beyond a face by round-off is put on it (Lattice::enter()). What is found is
+     * acted on where the ranks meet next.
      */
     void relocate(const unsigned int begin, const unsigned int end);
 
@@ -85,6 +86,9 @@ namespace Talus
   private:
     /** Appends the n particles of the home to the working set, and empties the home. */
     void load(const unsigned int n);
+
+    /** Puts a particle back on the faces of the domain from which round-off has taken it. */
+    void put_on_face(const unsigned int p);
 
     /** What relocate() does for the corners of the particles' domains. */
     void look_at_corners(const unsigned int begin, const unsigned int end);
