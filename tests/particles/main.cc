@@ -23,11 +23,19 @@ DECLARE(half_edges_of_shapes)
 DECLARE(ring)
 DECLARE(ring_errors)
 DECLARE(clipped)
+DECLARE(on_grid_lines)
+DECLARE(on_faces)
+void point_table();
 
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
-                   {{"lattice 2D", lattice<2>},
+                   {{"point table", point_table},
+                    {"on grid lines 2D", on_grid_lines<2>},
+                    {"on grid lines 3D", on_grid_lines<3>},
+                    {"on faces 2D", on_faces<2>},
+                    {"on faces 3D", on_faces<3>},
+                    {"lattice 2D", lattice<2>},
                     {"lattice 3D", lattice<3>},
                     {"numbers of points 2D", numbers_of_points<2>},
                     {"numbers of points 3D", numbers_of_points<3>},
