@@ -68,6 +68,7 @@ namespace Talus
           visitor(i, points[i], volumes[i]);
       }
 
+      bool          is_list() const override { return true; }
       std::uint64_t n_indices() const override { return points.size(); }
       std::string  position_entry() const override { return "File"; }
 

@@ -25,12 +25,21 @@ DECLARE(ring_errors)
 DECLARE(clipped)
 DECLARE(on_grid_lines)
 DECLARE(on_faces)
+DECLARE(edge_volumes)
+DECLARE(shifted_lattices)
+DECLARE(overlaps)
 void point_table();
 
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
                    {{"point table", point_table},
+                    {"edge volumes 2D", edge_volumes<2>},
+                    {"edge volumes 3D", edge_volumes<3>},
+                    {"shifted lattices 2D", shifted_lattices<2>},
+                    {"shifted lattices 3D", shifted_lattices<3>},
+                    {"overlaps 2D", overlaps<2>},
+                    {"overlaps 3D", overlaps<3>},
                     {"on grid lines 2D", on_grid_lines<2>},
                     {"on grid lines 3D", on_grid_lines<3>},
                     {"on faces 2D", on_faces<2>},

@@ -52,6 +52,12 @@ namespace Talus
       return edges;
     }
 
+    /** Whether x lies within the region that the points stand for, and not on its surface; a list of points has none. */
+    virtual bool covers(const Point & /*x*/) const { return false; }
+
+    /** Whether the shape is nothing but points: covers() then knows nothing. */
+    virtual bool is_list() const { return false; }
+
     /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
     virtual std::string position_entry() const = 0;
 
