@@ -109,8 +109,7 @@ namespace Talus
                             Patterns::Double());
         this->add_parameter("Axis", axis, "Direction of the axis.", this->prm,
                             Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"));
-        if (dim == 3)
-          this->add_edge_volumes();
+        this->add_edge_volumes();
       }
 
       BoundingBox<dim> bounding_box() const override
