@@ -100,7 +100,7 @@ namespace Talus
       problem = "cannot read " + name + ": " + std::strerror(errno) +
                 ". Check the name and the directory talus is started in.";
     else if (S_ISDIR(status.st_mode))
-      problem = "cannot read " + name + ": it is a directory. Give the name of a file.";
+      problem = "cannot read " + name + ": it is a directory. Check the name: give that of a file.";
     else if (!in)
       problem = "cannot read " + name + ": there is no permission. Check who may read it.";
     if (!problem.empty() || in.peek() == std::ifstream::traits_type::eof())

@@ -12,7 +12,7 @@ namespace
 {
   /** A box that round-off does not spare: neither corners nor spacings are numbers of the machine. */
   template <int dim>
-  std::string grid(const double origin, const int n_cells, const double h)
+  std::string exact_grid(const double origin, const int n_cells, const double h)
   {
     std::ostringstream lower, upper;
     lower << std::setprecision(17);
@@ -32,19 +32,19 @@ namespace
                             const int digits)
   {
     std::ofstream      file(name);
-    const unsigned int n = 2 * n_cells + 1, total = dim == 2 ? n * n : n * n * n;
+    const unsigned int n = 2 * n_cells + 1, n_total = dim == 2 ? n * n : n * n * n;
     file << std::setprecision(digits);
-    for (unsigned int k = 0; k < total; ++k)
+    for (unsigned int k = 0; k < n_total; ++k)
     {
       for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
         file << origin + (rest % n) * h / 2 << ' ';
       file << std::pow(h / 2, dim) << '\n';
     }
-    return total;
+    return n_total;
   }
 
   template <int dim>
-  double total(const Setup<dim> &setup, const unsigned int field)
+  double total_of(const Setup<dim> &setup, const unsigned int field)
   {
     double result = 0;
     for (unsigned int p = 0; p < setup.particles.size(); ++p)
@@ -65,11 +65,11 @@ void on_grid_lines()
       {
         const int          n_cells = dim == 2 ? 10 : 6;
         const unsigned int n       = write_points<dim>(name, origin, n_cells, h, origin > 1 ? 17 : digits);
-        Setup<dim> setup(grid<dim>(origin, n_cells, h) + body_text(set("Shape", "points") + set("File", name)));
+        Setup<dim> setup(exact_grid<dim>(origin, n_cells, h) + body_text(set("Shape", "points") + set("File", name)));
         const std::string what =
           "origin " + std::to_string(origin) + ", h " + std::to_string(h) + ", digits " + std::to_string(digits);
         check_true(what + ": number", sum(setup.particles.size()) == n && setup.particles.n_global == n);
-        check(what + ": mass", total(setup, setup.particles.mass) / (3 * n * std::pow(h / 2, dim)) - 1, 1e-8);
+        check(what + ": mass", total_of(setup, setup.particles.mass) / (3 * n * std::pow(h / 2, dim)) - 1, 1e-8);
         bool is_inside = true;
         for (unsigned int p = 0; p < setup.particles.size(); ++p)
           is_inside = is_inside && setup.grid.contains(setup.position(p));
@@ -77,7 +77,7 @@ void on_grid_lines()
         // A step in which nothing moves finds them where they are.
         setup.particles.relocate();
         check_true(what + ": none leaves",
-                   Utilities::MPI::max(setup.particles.outside != Particles<dim>::none ? 1 : 0, MPI_COMM_WORLD) == 0);
+                   Utilities::MPI::max(setup.particles.outside != setup.particles.none ? 1 : 0, MPI_COMM_WORLD) == 0);
       }
   std::remove(name.c_str());
 }
@@ -88,7 +88,7 @@ void on_faces()
 {
   for (const double origin : {0., -0.7, 4649000.3})
   {
-    Setup<dim>          setup(grid<dim>(origin, 10, 0.3) + body_text(set("Shape", "ball") + set("Radius", "0.3") +
+    Setup<dim>          setup(exact_grid<dim>(origin, 10, 0.3) + body_text(set("Shape", "ball") + set("Radius", "0.3") +
                                                             set("Centre", coordinates<dim>({{origin + 1.5, origin + 1.5, origin + 1.5}}))));
     const Lattice<dim> &lattice = setup.grid.lattice;
     const double        lower = lattice.origin[1], upper = lattice.node_position(10, 1);
@@ -117,7 +117,7 @@ void on_faces()
       for (unsigned int p = 0; p < setup.particles.size(); ++p)
         setup.particles.component(setup.particles.position, 1)[p] = p % 2 == 0 ? upper + beyond : lower - beyond;
       setup.particles.relocate();
-      const bool has_left = Utilities::MPI::max(setup.particles.outside != Particles<dim>::none ? 1 : 0, MPI_COMM_WORLD);
+      const bool has_left = Utilities::MPI::max(setup.particles.outside != setup.particles.none ? 1 : 0, MPI_COMM_WORLD);
       check_true(what + ": moved beyond a face", has_left == (beyond > tolerance));
       if (has_left)
         continue;
