@@ -17,7 +17,6 @@ namespace Talus
     smoothing(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->choose(parameters);
-    kernel->attach(grid);
     build_bodies(parameters);
     build_conditions(parameters);
     kernel->add_fields(particles);
@@ -88,6 +87,7 @@ namespace Talus
     }
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
+    kernel->attach(grid);
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
     if (!bodies.empty())
