@@ -84,6 +84,7 @@ namespace Talus
         Number gradient[n_corners][dim];   // 2^-d sum_e s_ce r^e
         Number lowest[dim], extent[dim];   // the box of nodes: first index and number
         int    largest_extent;             // of any lane and axis
+        int    n_layers;                   // largest extent of any lane along the last axis
       };
 
       void find(const dealii::Tensor<1, dim, Number> &x, const dealii::Tensor<2, dim, Number> &r, Domains &found) const
@@ -104,15 +105,18 @@ namespace Talus
               found.gradient[c][d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
           }
         }
-        Number largest = 0.;
+        const auto greatest = [](const Number &value) {
+          return static_cast<int>(*std::max_element(value.data(), value.data() + native_width));
+        };
+        found.largest_extent = 0;
         for (unsigned int d = 0; d < dim; ++d)
         {
           found.x[d]      = (x[d] - lattice->origin[d]) * lattice->inverse_h[d];
           found.lowest[d] = floor(found.lowest[d]);
           found.extent[d] = 1. - found.lowest[d] - floor(-highest[d]); // with the ceiling of the highest
-          largest         = max(largest, found.extent[d]);
+          found.n_layers       = greatest(found.extent[d]);
+          found.largest_extent = std::max(found.largest_extent, found.n_layers);
         }
-        found.largest_extent = static_cast<int>(*std::max_element(largest.data(), largest.data() + native_width));
       }
 
       /** The hats of some nodes of a line at lattice coordinate t after the first. */
@@ -128,6 +132,7 @@ namespace Talus
       void list_boxes(const Domains &found, const unsigned int size, Stencil<dim> *stencils) const
       {
         constexpr unsigned int last = dim - 1;
+        const unsigned int     n_layers = found.n_layers, n_listed = n_layers * n_inner;
         Number                 inner[n_corners][n_inner], outer[usual_extent][n_corners][1 + dim];
         for (unsigned int c = 0; c < n_corners; ++c)
         {
@@ -137,7 +142,7 @@ namespace Talus
               along[d][k] = hat(found.corner[c][d] - found.lowest[d], k);
           for (unsigned int i = 0; i < n_inner; ++i)
             inner[c][i] = dim == 2 ? along[0][i] : along[0][i % usual_extent] * along[1][i / usual_extent];
-          for (unsigned int k = 0; k < usual_extent; ++k)
+          for (unsigned int k = 0; k < n_layers; ++k)
           {
             outer[k][c][0] = (1. / n_corners) * along[last][k];
             for (unsigned int d = 0; d < dim; ++d)
@@ -145,10 +150,10 @@ namespace Talus
           }
         }
         Number sums[1 + dim][padded];
-        for (unsigned int i = n_box; i < padded; ++i)
+        for (unsigned int i = n_listed; i < (n_listed + 7) / 8 * 8; ++i)
           for (unsigned int j = 0; j <= dim; ++j)
             sums[j][i] = 0.;
-        for (unsigned int k = 0; k < usual_extent; ++k)
+        for (unsigned int k = 0; k < n_layers; ++k)
           for (unsigned int i = 0; i < n_inner; i += usual_extent)
             add_corners(inner, outer[k], i, k * n_inner + i, sums);
 
@@ -167,7 +172,7 @@ namespace Talus
           list_places(first, found, l, stencils[l]);
         }
         for (unsigned int j = 0; j <= dim; ++j)
-          for (unsigned int i = 0; i < padded; i += 8)
+          for (unsigned int i = 0; i < n_listed; i += 8)
           {
             Simd<8> of_nodes[native_width];
             lanes_to_vectors<native_width>(reinterpret_cast<const Number(&)[8]>(sums[j][i]), of_nodes);
@@ -199,13 +204,15 @@ namespace Talus
                        Stencil<dim> &stencil) const
       {
         const unsigned int place = lattice->table_index(first);
+        unsigned int *places = stencil.place.data();
+#pragma GCC ivdep
         for (unsigned int i = 0; i < padded; ++i)
-          stencil.place[i] = place + place_in_box[i];
+          places[i] = place + place_in_box[i];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double offset = (first[d] - found.x[d].data()[l]) * lattice->h[d];
-          for (unsigned int i = 0; i < padded; ++i)
-            stencil.offset[d][i] = offset + offset_in_box[d][i];
+          const Simd<8> offset = (first[d] - found.x[d].data()[l]) * lattice->h[d];
+          for (unsigned int i = 0; i < stencil.size; i += 8)
+            (offset + Simd<8>::load(offset_in_box[d] + i)).store(stencil.offset[d] + i);
         }
       }
 
