@@ -56,7 +56,7 @@ namespace Talus
         for_each_batch(begin, end, [&](const auto batch) {
           find(corners.position(batch), corners.half_edges(batch), found);
           Stencil<dim> *of_batch = stencils + (batch.p - begin);
-          if (found.largest_extent <= usual_extent)
+          if (found.largest_extent <= static_cast<int>(usual_extent))
             list_boxes(found, batch.size(), of_batch);
           else
             for (unsigned int l = 0; l < batch.size(); ++l)
