@@ -145,7 +145,7 @@ void surface_errors()
   refuse("empty", {"is empty"}, "solid nothing\nendsolid\n");
   refuse("no STL", {"is no STL file", "84 bytes instead of"}, "some text of whatever kind");
   std::string broken = stl_text(whole);
-  refuse("cut", {":15: the facet that ends here has not three"}, broken.substr(0, broken.find("endfacet", 200)) + "\n");
+  refuse("cut", {":14: the facet that ends here has not three"}, broken.substr(0, broken.find("vertex ", 200)) + "\n");
   refuse("no number", {":4: 'nan' is not a finite number"}, broken.replace(broken.find("vertex "), 8, "vertex nan"));
   check_error<InputError>("no file", {"cannot read 'nothing.stl'"}, [] { read_surface<3>("nothing.stl", 1, {}); });
   const TemporaryFile polygon("", "0 0\n1 0\n\n1 1\n");
