@@ -15,6 +15,8 @@ template <int dim>
 void musl_definition();
 template <int dim>
 void musl_momentum();
+template <int dim>
+void musl_energy();
 
 int main(int argc, char **argv)
 {
@@ -33,5 +35,7 @@ int main(int argc, char **argv)
                     {"MUSL: definition, 2D", musl_definition<2>},
                     {"MUSL: definition, 3D", musl_definition<3>},
                     {"MUSL: momentum, 2D", musl_momentum<2>},
-                    {"MUSL: momentum, 3D", musl_momentum<3>}});
+                    {"MUSL: momentum, 3D", musl_momentum<3>},
+                    {"MUSL: energy, 2D", musl_energy<2>},
+                    {"MUSL: energy, 3D", musl_energy<3>}});
 }
