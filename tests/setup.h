@@ -111,6 +111,7 @@ namespace Test
     void scatter(const double time = 0)
     {
       grid.clear();
+      this->walls.clear();
       transfer->particle_to_grid(particles, *kernel, acceleration, time, grid);
     }
 
@@ -119,11 +120,7 @@ namespace Test
     {
       boundary.mark_slip_walls(time + dt, particles.n_stencil_nodes, grid);
       scatter(time);
-      grid.fields.add_copies_to_owners();
-      transfer->complete(grid);
-      grid.update_velocity(dt);
-      boundary.apply(time + dt, dt > 0 ? dt : 1., grid);
-      grid.fields.update_copies();
+      this->move_nodes(time, dt);
       transfer->grid_to_particle(grid, *kernel, dt, particles);
     }
 

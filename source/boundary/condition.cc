@@ -131,6 +131,19 @@ namespace Talus
   }
 
   template <int dim>
+  void Condition<dim>::prescribe(const double time, Grid<dim> &grid, Prescribed<dim> &prescribed)
+  {
+    reaction    = 0;
+    nodal_force = 0;
+    work        = 0;
+    if (!acts(time))
+      return;
+    this->prescribed = &prescribed;
+    prescribe(time, grid);
+    this->prescribed = nullptr;
+  }
+
+  template <int dim>
   bool Condition<dim>::acts(const double time) const
   {
     // A step belongs to the interval in which it ends: intervals that follow each other do not overlap.
@@ -165,6 +178,71 @@ namespace Talus
         if (acting[c] && conditions[c]->is_slip() == is_slip)
           conditions[c]->mark_slip(faces);
     grid.set_slip_walls(faces, n);
+  }
+
+  template <int dim>
+  void Boundary<dim>::solve(const double time, const double dt, Walls<dim> &walls, Grid<dim> &grid)
+  {
+    prescribed.clear(grid.fields.n_owned());
+    for (prescribed.condition = 0; prescribed.condition < conditions.size(); ++prescribed.condition)
+      conditions[prescribed.condition]->prescribe(time, grid, prescribed);
+    walls.solve(prescribed, dt, damping.factor);
+    account(dt, grid);
+    held.clear(grid.fields.n_owned());
+    damping.apply(walls.plain_nodes, held, grid);
+    damping.work += walls.damping_work;
+  }
+
+  template <int dim>
+  void Boundary<dim>::repeat(const double time, const double dt, Walls<dim> &walls, Grid<dim> &grid)
+  {
+    struct Sums
+    {
+      Tensor<1, dim> reaction, nodal_force;
+      double         work;
+    };
+    std::vector<Sums> sums;
+    for (const auto &condition : conditions)
+      sums.push_back({condition->reaction, condition->nodal_force, condition->work});
+    const auto mirrored_force = grid.fields.mirrored_force;
+    const auto before         = damping;
+    damping.factor            = 0;
+    if (walls.has_ghosts())
+      solve(time, /* dt = */ 0., walls, grid);
+    else
+    {
+      held.clear(grid.fields.n_owned());
+      for (auto &condition : conditions)
+        condition->apply(time, dt, grid, held);
+    }
+    damping                    = before;
+    grid.fields.mirrored_force = mirrored_force;
+    for (unsigned int c = 0; c < conditions.size(); ++c)
+    {
+      conditions[c]->reaction    = sums[c].reaction;
+      conditions[c]->nodal_force = sums[c].nodal_force;
+      conditions[c]->work        = sums[c].work;
+    }
+  }
+
+  template <int dim>
+  void Boundary<dim>::account(const double dt, const Grid<dim> &grid)
+  {
+    const double step = dt > 0 ? dt : 1.;
+    for (const auto &node : prescribed.nodes)
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        const double v = grid.fields[node.node][NodalFields<dim>::velocity + c];
+        if (node.holder[c] != Prescribed<dim>::nobody)
+          conditions[node.holder[c]]->take(c, node.impulse[c], node.force_impulse[c], v, step);
+        bool is_counted = node.holder[c] != Prescribed<dim>::nobody;
+        for (const auto &contact : node.contact)
+          if (contact.acts)
+          {
+            conditions[contact.condition]->take(c, contact.impulse[c], is_counted ? 0. : node.force_impulse[c], v, step);
+            is_counted = true;
+          }
+      }
   }
 
   template <int dim>

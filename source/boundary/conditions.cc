@@ -166,6 +166,11 @@ namespace Talus
           {
             if (wall.depends_on_space())
               v_wall = wall.value(grid.node_position(i), time);
+            if (this->prescribed)
+            {
+              this->prescribed->press(i, axis, outward, mu, v_wall);
+              continue;
+            }
             Tensor<1, dim> slip;
             for (unsigned int d = 0; d < dim; ++d)
               slip[d] = grid.fields[i][Fields::velocity + d] - v_wall[d];

@@ -5,13 +5,14 @@
 namespace Talus
 {
   template <int dim>
-  void LocalDamping<dim>::apply(const HeldComponents<dim> &held, Grid<dim> &grid)
+  void LocalDamping<dim>::apply(const std::vector<unsigned int> &nodes, const HeldComponents<dim> &held,
+                                Grid<dim> &grid)
   {
     work = 0;
     if (!(factor > 0))
       return;
     using Fields = NodalFields<dim>;
-    for (const unsigned int i : grid.active_nodes)
+    for (const unsigned int i : nodes)
     {
       double *node = grid.fields[i];
       for (unsigned int d = 0; d < dim; ++d)

@@ -176,6 +176,18 @@ namespace Talus
       bool is_mirror() const override { return true; }
     };
 
+    /**
+     * The grid goes on beyond its faces: kernels stay as they are, and the nodes beyond are folded onto those before, as
+     * the conditions there say. See Walls.
+     */
+    template <int dim>
+    class GhostNodes : public Treatment<dim>
+    {
+    public:
+      using Treatment<dim>::Treatment;
+      bool has_ghosts() const override { return true; }
+    };
+
     /** Moving least squares, Fig. 3(c): the derivative of M(x)^{-1} P is taken as well. */
     template <int dim>
     class MovingLeastSquares : public Treatment<dim>
@@ -231,6 +243,8 @@ namespace Talus
       "WLS separable", "weighted least squares on each truncated axis alone");
     const RegisterDimensions<Treatment, Mirror> mirror(
       "mirror", "nodes beyond a slip wall mirror those before it; 'WLS separable' at other faces");
+    const RegisterDimensions<Treatment, GhostNodes> ghost_nodes(
+      "ghost nodes", "complete kernels: nodes beyond the faces move as the conditions there say");
     const RegisterDimensions<Treatment, MovingLeastSquares> mls("MLS", "moving least squares where nodes are missing");
   } // namespace
 } // namespace Talus

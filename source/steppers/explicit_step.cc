@@ -101,15 +101,12 @@ namespace Talus
       const Timing::Scope scope(*timing, particle_to_grid);
       model.boundary.mark_slip_walls(time + dt, model.particles.n_stencil_nodes, model.grid);
       model.grid.clear();
+      model.walls.clear();
       model.transfer->particle_to_grid(model.particles, *model.kernel, model.acceleration, time, model.grid);
       model.tractions.apply(model.particles, *model.kernel, time, model.grid);
     }
     const Timing::Scope scope(*timing, grid);
-    model.grid.fields.add_copies_to_owners();
-    model.transfer->complete(model.grid);
-    model.grid.update_velocity(dt);
-    model.boundary.apply(time + dt, dt, model.grid);
-    model.grid.fields.update_copies();
+    model.move_nodes(time, dt);
   }
 
   template <int dim>

@@ -88,6 +88,8 @@ namespace Talus
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
     kernel->attach(grid);
+    if (reach.ghosts)
+      walls.attach(grid);
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
     if (!bodies.empty())
@@ -103,6 +105,23 @@ namespace Talus
     smoothing.initialize(materials, *kernel, particles, grid);
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);
+  }
+
+  template <int dim>
+  void Model<dim>::move_nodes(const double time, const double dt)
+  {
+    grid.fields.add_copies_to_owners();
+    walls.collect();
+    transfer->complete(grid);
+    if (walls.has_ghosts())
+      boundary.solve(time + dt, dt, walls, grid);
+    else
+    {
+      grid.update_velocity(dt);
+      boundary.apply(time + dt, dt > 0 ? dt : 1., grid);
+    }
+    grid.fields.update_copies();
+    walls.fill();
   }
 
   template <int dim>

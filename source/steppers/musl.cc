@@ -29,12 +29,16 @@ namespace Talus
     const auto lost_momentum = grid.lost_momentum;
     exchange_positions(model.particles);
     grid.clear();
+    model.walls.clear();
     model.transfer->particle_to_grid(model.particles, *model.kernel, model.acceleration, time, grid);
     grid.fields.add_copies_to_owners();
+    model.walls.collect();
     model.transfer->complete(grid);
-    grid.update_velocity(/* dt = */ 0.); // v = p / m
-    model.boundary.repeat(time + dt, dt, grid);
+    if (!model.walls.has_ghosts())
+      grid.update_velocity(/* dt = */ 0.); // v = p / m
+    model.boundary.repeat(time + dt, dt, model.walls, grid);
     grid.fields.update_copies();
+    model.walls.fill();
     gather_velocity_gradient(grid, *model.kernel, model.transfer->is_plain, model.particles);
     exchange_positions(model.particles);
     grid.lost_momentum = lost_momentum;

@@ -34,6 +34,7 @@ namespace Talus
       model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
       model.particles.update_open_places();
       model.boundary.select(model.grid);
+      model.walls.select();
       since_activation = 0;
     }
   }

@@ -3,6 +3,7 @@
 #include <talus/boundary/damping.h>
 #include <talus/core/reduction.h>
 #include <talus/core/table.h>
+#include <talus/grid/walls.h>
 
 namespace Talus
 {
@@ -27,6 +28,22 @@ namespace Talus
      * notes what it sets.
      */
     void apply(const double time, const double dt, Grid<dim> &grid, HeldComponents<dim> &held);
+
+    /** Says what it holds at the end of the step, if its interval contains `time`; who solves for the velocities does
+     * the rest, and calls take(). */
+    void prescribe(const double time, Grid<dim> &grid, Prescribed<dim> &prescribed);
+
+    /**
+     * Enters what a component of a node has cost in a step of size dt: what was taken from the body there, the share of
+     * its forces in it, and the velocity that it has [momentum, length/time].
+     */
+    void take(const unsigned int component, const double impulse, const double force_impulse, const double velocity,
+              const double dt)
+    {
+      reaction[component] += impulse / dt;
+      nodal_force[component] += force_impulse / dt;
+      work -= impulse * velocity;
+    }
 
     /** Whether it acts in a step that ends at `time`. */
     bool acts(const double time) const;
@@ -65,6 +82,8 @@ namespace Talus
     /** Sets a component of a node's velocity and records what it costs. */
     void set(const unsigned int i, const unsigned int component, const double velocity)
     {
+      if (prescribed)
+        return prescribed->hold(i, component, velocity);
       using Fields         = NodalFields<dim>;
       double      *node    = grid->fields[i];
       const double change  = velocity - node[Fields::velocity + component];
@@ -83,6 +102,8 @@ namespace Talus
      */
     void arrest(const unsigned int i, const unsigned int component)
     {
+      if (prescribed)
+        return prescribed->hold(i, component, 0., /* is_symmetric = */ true);
       using Fields         = NodalFields<dim>;
       double      *node    = grid->fields[i];
       const double impulse = node[Fields::mass] * node[Fields::increment + component];
@@ -93,6 +114,7 @@ namespace Talus
       node[Fields::increment + component] = 0;
     }
 
+    Prescribed<dim>                       *prescribed = nullptr; // where velocities are solved for
     std::vector<unsigned int>              boundary_ids;
     std::vector<unsigned int>              faces; // 2 axis + side: boundary ids, and faces parallel to the half spaces
     std::vector<std::vector<unsigned int>> nodes; // active, of each of these; of the box in the last list
@@ -121,28 +143,20 @@ namespace Talus
       held.clear(grid.fields.n_owned());
       for (auto &condition : conditions)
         condition->apply(time, dt, grid, held);
-      damping.apply(held, grid);
+      damping.apply(grid.active_nodes, held, grid);
     }
 
     /**
-     * Changes velocities as apply() does, once more in the same step: what conditions and faces know of it stays as it
-     * was.
+     * The same where the grid has ghosts: from the nodes' sums to their velocities at `time`, the end of a step.
+     * Collective.
      */
-    void repeat(const double time, const double dt, Grid<dim> &grid)
-    {
-      const auto mirrored_force = grid.fields.mirrored_force;
-      held.clear(grid.fields.n_owned());
-      for (auto &condition : conditions)
-      {
-        const auto reaction = condition->reaction, nodal_force = condition->nodal_force;
-        const auto work = condition->work;
-        condition->apply(time, dt, grid, held);
-        condition->reaction    = reaction;
-        condition->nodal_force = nodal_force;
-        condition->work        = work;
-      }
-      grid.fields.mirrored_force = mirrored_force;
-    }
+    void solve(const double time, const double dt, Walls<dim> &walls, Grid<dim> &grid);
+
+    /**
+     * Changes velocities as apply() does, or solve() with the nodes' momenta alone, once more in the same step: what
+     * conditions and faces know of it stays as it was.
+     */
+    void repeat(const double time, const double dt, Walls<dim> &walls, Grid<dim> &grid);
 
     void select(const Grid<dim> &grid)
     {
@@ -170,7 +184,10 @@ namespace Talus
     LocalDamping<dim>                            damping;
 
   private:
+    void account(const double dt, const Grid<dim> &grid);
+
     HeldComponents<dim> held;
+    Prescribed<dim>     prescribed;
     std::vector<bool>   marked; // which conditions acted when the slip walls were marked
   };
 } // namespace Talus

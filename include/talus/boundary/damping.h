@@ -19,7 +19,7 @@ namespace Talus
     double factor = 0; // alpha [1], 0 <= alpha < 1; 0: none, at no cost
     double work   = 0; // on the body in the last step, of this rank, then of all [energy]
 
-    /** Damps the velocities of this rank's nodes that are not `held`, after the conditions. */
-    void apply(const HeldComponents<dim> &held, Grid<dim> &grid);
+    /** Damps the velocities of some of this rank's nodes where they are not `held`, after the conditions. */
+    void apply(const std::vector<unsigned int> &nodes, const HeldComponents<dim> &held, Grid<dim> &grid);
   };
 } // namespace Talus

@@ -11,6 +11,7 @@ namespace Talus
     unsigned int n          = 0;
     double       shift      = 0;
     bool         at_corners = false;
-    unsigned int layers     = 1; // of cells beyond its own that a rank must know with all their nodes
+    unsigned int layers     = 1;     // of cells beyond its own that a rank must know with all their nodes
+    bool         ghosts     = false; // a layer of nodes beyond each face of the domain: see Walls
   };
 } // namespace Talus

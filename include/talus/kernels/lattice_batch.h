@@ -181,8 +181,9 @@ namespace Talus
         h[d]         = lattice.h[d];
         inverse_h[d] = lattice.inverse_h[d];
         stride[d]    = lattice.stride[d];
-        lowest[d]    = needs_margin ? 1 : 0;
-        highest[d]   = lattice.n_cells[d] + (needs_margin ? 0. : 1.) - n;
+        // With ghosts every stencil in the domain is complete.
+        lowest[d]  = treatment.has_ghosts() ? -2. : needs_margin ? 1. : 0.;
+        highest[d] = lattice.n_cells[d] + (treatment.has_ghosts() ? 2. : needs_margin ? 0. - n : 1. - n);
         place_of_zero -= lattice.first[d] * stride[d];
       }
     }

@@ -52,7 +52,8 @@ namespace Talus
 
     Reach reach() const override
     {
-      return {Function::n, Function::shift, /* at_corners = */ false, Function::n > 3 ? 2u : 1u};
+      return {Function::n, Function::shift, /* at_corners = */ false, Function::n > 3 ? 2u : 1u,
+              treatment->has_ghosts()};
     }
 
     std::optional<LatticeForm<dim>> lattice_form() const override { return {{function, *lattice, *treatment}}; }

@@ -52,6 +52,9 @@ namespace Talus
     /** True when nodes beyond a slip wall are not missing, but the mirror images of others. */
     virtual bool is_mirror() const { return false; }
 
+    /** True when no stencil is corrected, because nodes beyond the faces are there: see Walls. */
+    virtual bool has_ghosts() const { return false; }
+
     /** True when the treatment needs boundary_scale, which not every kernel has. */
     virtual bool needs_boundary_scale() const { return false; }
   };

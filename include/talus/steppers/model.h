@@ -36,7 +36,14 @@ namespace Talus
     /** Registers what the parts know of the last step, for all ranks. */
     void add_to(Reduction &reduction);
 
+    /**
+     * From the sums of this rank's particles at the nodes to the velocities and increments of the nodes in a step from
+     * `time` to time + dt, copies and ghosts included. Collective.
+     */
+    void move_nodes(const double time, const double dt);
+
     Grid<dim>                               grid;
+    Walls<dim>                              walls;
     std::unique_ptr<Kernel<dim>>            kernel;
     std::unique_ptr<Transfer<dim>>          transfer;
     std::vector<std::string>                material_names;
