@@ -67,6 +67,11 @@ foreach(pool pool_2d pool_3d)
     "Kernel/Boundary treatment = WLS separable" "Transfer/Slip projection = true")
   talus_compare(${pool} mirror_APIC "${ranks}" "Kernel/Boundary treatment = mirror" "Transfer/Type = APIC")
 endforeach()
+talus_compare(walls_2d ghost_APIC "${ranks}" "Transfer/Type = APIC")
+talus_compare(walls_2d ghost_cubic_FLIP "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = FLIP")
+talus_compare(walls_2d ghost_uGIMP_blend "1;4" "Kernel/Type = uGIMP" "Transfer/Type = blend" "Run/Courant number = 0.2")
+talus_compare(walls_3d ghost_TPIC "${ranks}" "Transfer/Type = TPIC")
+talus_compare(pool_3d ghost_TPIC "${ranks}" "Kernel/Boundary treatment = ghost nodes")
 # Writing output must not change the run.
 talus_compare(disk_2d output "1;2, Output/Step interval = 7, Output/CSV = true, Output/Grid = true"
   "Transfer/Type = APIC")

@@ -24,15 +24,15 @@ KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubi
            "cpdi": "CPDI"}
 TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC", "cpls": "CPLS"}
 TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none",
-              "mirror": "mirror"}
+              "mirror": "mirror", "ghost": "ghost nodes"}
 MATERIALS = {"neo": {"Type": "neo-Hookean"}, "elastic": {"Type": "linear elastic"},
              "mises": {"Type": "von Mises", "Yield stress": 500}, "dp": {"Type": "Drucker-Prager"},
              "fluid": {"Type": "Newtonian fluid"}, "two": {"Type": "neo-Hookean"}}
 TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls-elastic", "quadratic-flip-wls-elastic",
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
          "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
-         "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-wls-two", "cpdi-tpic-none-neo",
-         "cpdi-cpls-none-neo"]
+         "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-ghost-neo", "quadratic-tpic-wls-two",
+         "cpdi-tpic-none-neo", "cpdi-cpls-none-neo"]
 NOT_STEPS = {"set-up", "output", "finite element reference", "total"}
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 # Mirrors are at slip walls. Two materials, one in each half, take off together, so that particles change ranks.

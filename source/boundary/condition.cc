@@ -239,7 +239,8 @@ namespace Talus
         for (const auto &contact : node.contact)
           if (contact.acts)
           {
-            conditions[contact.condition]->take(c, contact.impulse[c], is_counted ? 0. : node.force_impulse[c], v, step);
+            conditions[contact.condition]->take(c, contact.impulse[c], is_counted ? 0. : node.force_impulse[c], v,
+                                                step);
             is_counted = true;
           }
       }

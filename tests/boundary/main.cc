@@ -3,6 +3,11 @@
 using namespace Test;
 using namespace dealii;
 
+template <int dim>
+void ghosts();
+template <int dim>
+void ghosts_damped();
+
 namespace
 {
   std::string conditions(const std::string &names, const std::string &content)
@@ -312,6 +317,10 @@ int main(int argc, char **argv)
               {"interval 3D", interval<3>},
               {"damping 2D", damping<2>},
               {"damping 3D", damping<3>},
+              {"ghosts 2D", ghosts<2>},
+              {"ghosts 3D", ghosts<3>},
+              {"ghosts, damping 2D", ghosts_damped<2>},
+              {"ghosts, damping 3D", ghosts_damped<3>},
               {"errors 2D", boundary_errors<2>},
               {"errors 3D", boundary_errors<3>}});
 }

@@ -1,6 +1,7 @@
 #include <talus/grid/walls.h>
 
 #include "../setup.h"
+#include "dense_walls.h"
 
 #include <random>
 
@@ -10,105 +11,6 @@ using namespace dealii;
 namespace
 {
   using Vector = std::vector<double>;
-
-  /**
-   * The nodes of a small box and its ghosts as one list that every rank has, with the matrix C of all rows: built here
-   * once more, a dense row at a time.
-   */
-  template <int dim>
-  class Dense
-  {
-  public:
-    using Index = typename Lattice<dim>::Index;
-
-    explicit Dense(const Index &n_cells) : n_cells(n_cells)
-    {
-      size = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        size *= n_cells[d] + 3;
-      for (unsigned int i = 0; i < size; ++i)
-      {
-        nodes.push_back(index(i));
-        is_real.push_back(true);
-        is_at_face.push_back(false);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const int at  = nodes[i][d];
-          is_real[i]    = is_real[i] && at >= 0 && at <= n_cells[d];
-          is_at_face[i] = is_at_face[i] || at == 0 || at == n_cells[d];
-        }
-        is_at_face[i] = is_at_face[i] && is_real[i];
-      }
-      held.assign(size, {});
-    }
-
-    unsigned int number(const Index &index) const
-    {
-      unsigned int i = 0;
-      for (unsigned int d = dim; d-- > 0;)
-        i = i * (n_cells[d] + 3) + index[d] + 1;
-      return i;
-    }
-
-    /** Row of a node: coefficients of all nodes of the list. */
-    Vector row(const Index &at, const unsigned int c) const
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (at[d] < 0 || at[d] > n_cells[d])
-        {
-          Index w = at, q = at;
-          w[d]             = std::min(std::max(at[d], 0), n_cells[d]);
-          q[d]             = at[d] < 0 ? 1 : n_cells[d] - 1;
-          const auto &wall = held[number(clamped(w, n_cells))];
-          Vector      sum  = row(q, c);
-          if (c != d && wall[d] && !wall[c])
-            return sum;
-          const Vector of_w = row(w, c);
-          for (unsigned int i = 0; i < size; ++i)
-            sum[i] = 2 * of_w[i] - sum[i];
-          return sum;
-        }
-      Vector unit(size, 0.);
-      unit[number(at)] = 1;
-      return unit;
-    }
-
-    void find_rows()
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-      {
-        C[c].clear();
-        for (unsigned int i = 0; i < size; ++i)
-          C[c].push_back(row(nodes[i], c));
-      }
-    }
-
-    /** C^T x. */
-    Vector fold(const unsigned int c, const Vector &x) const
-    {
-      Vector sum(size, 0.);
-      for (unsigned int i = 0; i < size; ++i)
-        for (unsigned int j = 0; j < size; ++j)
-          sum[j] += C[c][i][j] * x[i];
-      return sum;
-    }
-
-    Index                                n_cells;
-    unsigned int                         size = 0;
-    std::vector<Index>                   nodes;
-    std::vector<bool>                    is_real, is_at_face;
-    std::vector<std::array<bool, dim>>   held;
-    std::array<std::vector<Vector>, dim> C;
-
-  private:
-    Index index(unsigned int i) const
-    {
-      Index result;
-      for (unsigned int d = 0; d < dim; ++d, i /= n_cells[d - 1] + 3)
-        result[d] = static_cast<int>(i % (n_cells[d] + 3)) - 1;
-      return result;
-    }
-  };
 
   enum class Kind
   {
@@ -239,27 +141,31 @@ namespace
     {
       const auto &grid = setup.grid;
       copy_error       = 0;
-      for (unsigned int c = 0; c < dim; ++c)
-      {
-        Vector v(dense.size, 0.), dv = v, J = v;
-        for (unsigned int i = 0; i < dense.size; ++i)
-          if (grid.lattice.node_at(clamped(dense.nodes[i], dense.n_cells)) < grid.fields.n_owned())
+      // All in one message: velocities, increments, impulses.
+      Vector here(3 * dim * dense.size, 0.), everywhere(here.size());
+      for (unsigned int i = 0; i < dense.size; ++i)
+        if (grid.lattice.node_at(clamped(dense.nodes[i], dense.n_cells)) < grid.fields.n_owned())
+          for (unsigned int c = 0; c < dim; ++c)
           {
-            v[i]  = node(i)[Fields::velocity + c];
-            dv[i] = node(i)[Fields::increment + c];
+            here[(3 * i + 0) * dim + c] = node(i)[Fields::velocity + c];
+            here[(3 * i + 1) * dim + c] = node(i)[Fields::increment + c];
           }
-        for (const auto &one : prescribed.nodes)
-          J[dense.number(grid.node_index[one.node])] = one.impulse[c];
-        Utilities::MPI::sum(v, MPI_COMM_WORLD, velocity[c]);
-        Utilities::MPI::sum(dv, MPI_COMM_WORLD, increment[c]);
-        Utilities::MPI::sum(J, MPI_COMM_WORLD, impulse[c]);
-        for (unsigned int i = 0; i < dense.size; ++i)
-          if (const double *here = node(i))
+      for (const auto &one : prescribed.nodes)
+        for (unsigned int c = 0; c < dim; ++c)
+          here[(3 * dense.number(grid.node_index[one.node]) + 2) * dim + c] = one.impulse[c];
+      Utilities::MPI::sum(here, MPI_COMM_WORLD, everywhere);
+      for (unsigned int i = 0; i < dense.size; ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+        {
+          velocity[c][i]  = everywhere[(3 * i + 0) * dim + c];
+          increment[c][i] = everywhere[(3 * i + 1) * dim + c];
+          impulse[c][i]   = everywhere[(3 * i + 2) * dim + c];
+          if (const double *known = node(i))
           {
-            raise(copy_error, here[Fields::velocity + c] - velocity[c][i]);
-            raise(copy_error, here[Fields::increment + c] - increment[c][i]);
+            raise(copy_error, known[Fields::velocity + c] - velocity[c][i]);
+            raise(copy_error, known[Fields::increment + c] - increment[c][i]);
           }
-      }
+        }
     }
 
     std::mt19937 random;

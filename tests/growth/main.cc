@@ -1,4 +1,5 @@
 #include "../setup.h"
+#include "stability.h"
 
 using namespace Test;
 
@@ -65,13 +66,13 @@ namespace
 
   const std::vector<std::string> all_walls = {"free", "no-slip", "slip"};
 
-  void corrected(const std::string &kernel)
+  void corrected(const std::string &kernel, const std::string &treatment)
   {
     for (const std::string transfer : {"APIC", "TPIC"})
       for (const auto &walls : all_walls)
         for (const bool is_random : {false, true})
         {
-          const double factor = growth(kernel, "WLS", transfer, walls, is_random);
+          const double factor = growth(kernel, treatment, transfer, walls, is_random);
           check(transfer + ", " + walls + (is_random ? ", random" : ", lattice") + " = " + std::to_string(factor),
                 factor > 1 || std::isnan(factor) ? factor - 1 : 0., 1e-9);
         }
@@ -85,7 +86,8 @@ namespace
       for (const std::string transfer : {"APIC", "TPIC"})
         for (const auto &[treatment, more] :
              {std::make_pair(std::string("WLS"), project), std::make_pair(std::string("WLS separable"), project),
-              std::make_pair(std::string("mirror"), std::string())})
+              std::make_pair(std::string("mirror"), std::string()),
+              std::make_pair(std::string("ghost nodes"), std::string())})
           for (const bool is_random : {false, true})
           {
             const double factor = growth(kernel, treatment, transfer, "slip", is_random, more);
@@ -125,9 +127,17 @@ namespace
 int main(int argc, char **argv)
 {
   return run(argc, argv,
-             {{"quadratic B-spline, WLS", [] { corrected("quadratic B-spline"); }},
-              {"cubic B-spline, WLS", [] { corrected("cubic B-spline"); }},
+             {{"quadratic B-spline, WLS", [] { corrected("quadratic B-spline", "WLS"); }},
+              {"cubic B-spline, WLS", [] { corrected("cubic B-spline", "WLS"); }},
+              {"quadratic B-spline, ghost nodes", [] { corrected("quadratic B-spline", "ghost nodes"); }},
+              {"uGIMP, ghost nodes", [] { corrected("uGIMP", "ghost nodes"); }},
               {"slip projection and mirror", cured},
               {"quadratic B-spline, Steffen", steffen},
-              {"quadratic B-spline, none", truncated}});
+              {"quadratic B-spline, none", truncated},
+              {"lone particles 2D", lone_particles<2>},
+              {"lone particles 3D", lone_particles<3>},
+              {"arrangements 2D", [] { arrangements<2>(100); }},
+              {"arrangements 3D", [] { arrangements<3>(25); }},
+              {"long: arrangements 2D", [] { arrangements<2>(2000); }},
+              {"long: arrangements 3D", [] { arrangements<3>(500); }}});
 }

@@ -77,7 +77,8 @@ void batched_and_plain()
 {
   for (const std::string transfer : {"FLIP", "PIC", "blend", "APIC", "TPIC"})
     for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
-      for (const std::string treatment : {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror"})
+      for (const std::string treatment : {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror",
+                                          "ghost nodes"})
         if (treatment != "Steffen" || kernel != "uGIMP")
           compare<dim>(kernel, treatment, transfer);
 }
@@ -93,7 +94,8 @@ void batched_and_plain_slip()
         for (const auto &conditions : {walls_text<dim>("slip"), mixed_walls<dim>()})
           compare<dim>(kernel, treatment, transfer, project, conditions);
     for (const std::string transfer : {"FLIP", "APIC"})
-      compare<dim>(kernel, "mirror", transfer, "", mixed_walls<dim>());
+      for (const std::string treatment : {"mirror", "ghost nodes"})
+        compare<dim>(kernel, treatment, transfer, "", mixed_walls<dim>());
   }
 }
 

@@ -1,0 +1,8 @@
+#pragma once
+
+template <int dim>
+void lone_particles();
+
+/** n arrangements for each scheme. */
+template <int dim>
+void arrangements(const unsigned int n);
