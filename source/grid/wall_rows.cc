@@ -1,3 +1,4 @@
+#include <talus/grid/wall_rows.h>
 #include <talus/grid/walls.h>
 
 namespace Talus

@@ -55,9 +55,13 @@ namespace Test
         if (at[d] < 0 || at[d] > n_cells[d])
         {
           Index w = at, q = at;
-          w[d]             = std::min(std::max(at[d], 0), n_cells[d]);
-          q[d]             = at[d] < 0 ? 1 : n_cells[d] - 1;
-          const auto &wall = held[number(clamped(w, n_cells))];
+          w[d] = std::min(std::max(at[d], 0), n_cells[d]);
+          q[d] = at[d] < 0 ? 1 : n_cells[d] - 1;
+          // What the wall is on this line, it is on the line's image inside.
+          Index image = w;
+          for (unsigned int e = 0; e < dim; ++e)
+            image[e] = w[e] < 0 ? 1 : w[e] > n_cells[e] ? n_cells[e] - 1 : w[e];
+          const auto &wall = held[number(image)];
           Vector      sum  = row(q, c);
           if (c != d && wall[d] && !wall[c])
             return sum;

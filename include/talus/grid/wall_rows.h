@@ -41,8 +41,9 @@ namespace Talus
    * @f[ row = row(q) \quad\text{or}\quad row = 2\, row(w) - row(q) . @f]
    * The first, v even in the distance from the wall, where w slips: its normal component d is held and this one is
    * not; the second everywhere else, v linear across the face. `holds(node, component)` tells what is held at the nodes
-   * of the faces; w counts with the node of the domain next to it. Real nodes have unit rows. Test:
-   * tests/grid/walls.cc.
+   * of the faces. Where w is a ghost its image inside counts, one node before the other faces: *at* them it would be
+   * held by their conditions, and the wall not what it is along the line. Then v_n = 0 on a wall as far as its edges,
+   * whatever stands there. Real nodes have unit rows. Test: tests/grid/walls.cc.
    */
   template <int dim, class Holds>
   WallRow<dim> wall_row(const typename Lattice<dim>::Index &index, const unsigned int component,
@@ -63,7 +64,10 @@ namespace Talus
     w[d] = index[d] < 0 ? 0 : n_cells[d];
     q[d] = index[d] < 0 ? 1 : n_cells[d] - 1;
 
-    const auto wall  = clamped(w, n_cells);
+    auto wall = w;
+    for (unsigned int e = d + 1; e < dim; ++e)
+      if (w[e] != std::min(std::max(w[e], 0), n_cells[e]))
+        wall[e] = w[e] < 0 ? 1 : n_cells[e] - 1;
     const bool slips = holds(wall, d) && !holds(wall, component);
     row.add(slips ? 1 : -1, wall_row<dim>(q, component, n_cells, holds));
     if (!slips)

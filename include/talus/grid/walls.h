@@ -3,7 +3,6 @@
 #include <talus/grid/block_factor.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/prescribed.h>
-#include <talus/grid/wall_rows.h>
 
 namespace Talus
 {
