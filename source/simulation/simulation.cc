@@ -168,7 +168,8 @@ namespace Talus
   {
     std::ostringstream text;
     text << "Talus " << version() << ", " << Utilities::MPI::n_mpi_processes(communicator) << " rank(s)\n"
-         << model.summary() << "  output     " << output.directory() << '\n';
+         << model.summary() << "  output     " << output.directory() << '\n'
+         << stepper->warning(model);
     return text.str();
   }
 

@@ -1,6 +1,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/steppers/model.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -122,6 +123,18 @@ namespace Talus
     }
     grid.fields.update_copies();
     walls.fill();
+  }
+
+  template <int dim>
+  std::optional<double> Model<dim>::lone_particle_limit(const std::array<double, 2> &factors) const
+  {
+    const auto greatest = kernel->greatest_stiffness(factors[0], factors[1]);
+    if (!greatest)
+      return {};
+    double sum = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum += std::pow(grid.lattice.smallest_spacing() * grid.lattice.inverse_h[d], 2);
+    return 1 / std::sqrt(*greatest * sum);
   }
 
   template <int dim>

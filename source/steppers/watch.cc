@@ -3,6 +3,7 @@
 #include <talus/steppers/watch.h>
 
 #include <algorithm>
+#include <iomanip>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -167,12 +168,24 @@ namespace Talus
       first = {particles.id[failed],
                {what.str(), broken == Limit::grid ?
                               "Enlarge the grid, or lower the Courant number." :
-                              "Lower the Courant number, or correct the kernels near the boundary."}};
+                              "Lower the Courant number, or correct the kernels near the boundary." + lone_particles()}};
     }
     for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
       first = std::min(first, other);
     report.failure = first.second[0];
     report.remedy  = first.second[1];
+  }
+
+  template <int dim>
+  std::string Watch<dim>::lone_particles() const
+  {
+    const auto limit = model.lone_particle_limit(model.transfer->stiffness_factors());
+    if (!limit)
+      return "";
+    std::ostringstream text;
+    text << " Lone particles need a Courant number of at most " << std::setprecision(3) << *limit
+         << " with this kernel and transfer.";
+    return text.str();
   }
 
   template <int dim>

@@ -38,6 +38,8 @@ namespace Talus
       static constexpr bool needs_D   = true;
       static constexpr bool gathers_B = true;
 
+      static constexpr std::array<double, 2> stiffness_factors = {{0.5, -0.25}};
+
       void add_fields(WorkingSet<dim> &particles) { B = particles.add_field("affine moment", dim * dim); }
       void bind(WorkingSet<dim> &particles, TransferArrays<dim> &arrays) const
       {

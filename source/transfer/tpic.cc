@@ -11,6 +11,8 @@ namespace Talus
     {
       static constexpr bool is_affine = true;
 
+      static constexpr std::array<double, 2> stiffness_factors = {{0.25, 0.}};
+
       template <class Batch, class Moment>
       auto affine(const TransferArrays<dim> &arrays, const Batch &batch, const Moment &, const double) const
       {

@@ -10,6 +10,8 @@ void edge();
 template <int dim>
 void explicit_steps();
 template <int dim>
+void courant_numbers();
+template <int dim>
 void strays();
 template <int dim>
 void musl_definition();
@@ -30,6 +32,8 @@ int main(int argc, char **argv)
                     {"watch: at the edge, 3D", edge<3>},
                     {"explicit steps, 2D", explicit_steps<2>},
                     {"explicit steps, 3D", explicit_steps<3>},
+                    {"Courant numbers, 2D", courant_numbers<2>},
+                    {"Courant numbers, 3D", courant_numbers<3>},
                     {"strays, 2D", strays<2>},
                     {"strays, 3D", strays<3>},
                     {"MUSL: definition, 2D", musl_definition<2>},

@@ -32,6 +32,35 @@ void sweep()
   check_true("no particles", calls.size() == 49);
 }
 
+/** What the Courant number is if nobody says it, and when a warning says what single particles bear. */
+template <int dim>
+void courant_numbers()
+{
+  const auto look = [](const std::string &kernel, const std::string &transfer, const std::string &given,
+                       const double wanted, const bool warns) {
+    Parameters parameters = Parameters::from_text(section("Grid", set("Spacing", "0.125")) + body_text("") +
+                                                  section("Kernel", set("Type", kernel)) + transfer_text(transfer) +
+                                                  (given.empty() ? "" : section("Run", set("Courant number", given))));
+    Model<dim> model(parameters, MPI_COMM_WORLD);
+    auto       stepper = parameters.make<Stepper<dim>>("/Run", "Stepper", "explicit", "");
+    parameters.parse();
+    model.create();
+    Timing            timing;
+    const Report      report = stepper->start(model, timing);
+    const std::string name   = kernel + ", " + transfer + ", " + given;
+    check(name + ": number", stepper->step_size(model, report) * report.signal_speed / 0.125 - wanted, 1e-12);
+    check_true(name + ": warning", stepper->warning(model).empty() != warns);
+  };
+  look("quadratic B-spline", "TPIC", "", dim == 2 ? 0.4 : 0.33, false);
+  look("cubic B-spline", "FLIP", "", dim == 2 ? 0.56 : 0.46, false);
+  look("uGIMP", "PIC", "", dim == 2 ? 0.32 : 0.26, false);
+  look("linear", "FLIP", "", dim == 2 ? 0.4 : 0.33, false);
+  look("quadratic B-spline", "FLIP", "0.45", 0.45, true);
+  look("quadratic B-spline", "TPIC", "0.45", 0.45, false);
+  look("quadratic B-spline", "APIC", dim == 2 ? "0.49" : "0.4", dim == 2 ? 0.49 : 0.4, false);
+  look("quadratic B-spline", "APIC", dim == 2 ? "0.51" : "0.42", dim == 2 ? 0.51 : 0.42, true);
+}
+
 /** A body in free flight: step size by Eqs. (35), (37), positions after some steps. */
 template <int dim>
 void explicit_steps()
@@ -113,6 +142,8 @@ void strays()
   check_true("out of the grid", refusal().find("left the grid") != std::string::npos);
 }
 
+template void courant_numbers<2>();
+template void courant_numbers<3>();
 template void explicit_steps<2>();
 template void explicit_steps<3>();
 template void strays<2>();

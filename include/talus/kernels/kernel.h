@@ -49,6 +49,13 @@ namespace Talus
 
     virtual Reach reach() const = 0;
 
+    /**
+     * The greatest of a S + b q over the places of a particle, S = sum_i phi_i'^2 / phi_i and q = 1 / sum_i phi_i s_i^2
+     * along an axis with spacing 1: how fast a lone particle vibrates hangs on them. Nothing where they have no bound,
+     * or the kernel is no product.
+     */
+    virtual std::optional<double> greatest_stiffness(const double /* a */, const double /* b */) const { return {}; }
+
     /** The form for which batched loops are compiled, if the kernel has it; all others run through lists. */
     virtual std::optional<LatticeForm<dim>> lattice_form() const { return {}; }
   };

@@ -56,6 +56,29 @@ namespace Talus
               treatment->has_ghosts()};
     }
 
+    std::optional<double> greatest_stiffness(const double a, const double b) const override
+    {
+      if (Function::n == 2)
+        return {}; // S = 1 / (s (1 - s)) of hats
+      double greatest = 0;
+      for (unsigned int i = 0; i < 2000; ++i)
+      {
+        using Number   = Simd<native_width>;
+        const double s = Function::shift + (i + 0.5) / 2000;
+        Number       weight[Function::n], derivative[Function::n];
+        function.evaluate(Number(s), weight, derivative);
+        double S = 0, D = 0;
+        for (unsigned int k = 0; k < Function::n; ++k)
+        {
+          const double w = weight[k][0], g = derivative[k][0];
+          S += w > 0 ? g * g / w : 0.;
+          D += w * (k - s) * (k - s);
+        }
+        greatest = std::max(greatest, a * S + b / D);
+      }
+      return greatest;
+    }
+
     std::optional<LatticeForm<dim>> lattice_form() const override { return {{function, *lattice, *treatment}}; }
 
   private:

@@ -26,6 +26,7 @@ namespace Talus
     Report      start(Model<dim> &model, Timing &timing) override;
     double      step_size(const Model<dim> &model, const Report &last) const override;
     Report      advance(Model<dim> &model, const Report &last, const double time, const double dt) override;
+    std::string warning(const Model<dim> &model) const override;
     std::string summary() const override;
 
   private:
@@ -35,7 +36,7 @@ namespace Talus
     void   move_nodes(Model<dim> &model, const double time, const double dt);
     Report move_particles(Model<dim> &model, const double time, const double dt);
 
-    double courant_number = 0.5, fixed_step_size = 0, mass_cutoff = 0;
+    double courant_number = 0, fixed_step_size = 0, mass_cutoff = 0;
     bool   is_musl = false;
 
     Timing      *timing = nullptr;

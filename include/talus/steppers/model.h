@@ -10,6 +10,8 @@
 #include <talus/transfer/transfer.h>
 #include <talus/transfer/volume_smoothing.h>
 
+#include <optional>
+
 namespace Talus
 {
   /**
@@ -32,6 +34,12 @@ namespace Talus
 
     /** Lines that say what it consists of. */
     std::string summary() const;
+
+    /**
+     * The Courant number up to which a lone particle of a fluid is stable, wherever it lies, with a transfer of these
+     * factors; nothing where there is none. Full bodies bear more. Theory: doc/walls.md.
+     */
+    std::optional<double> lone_particle_limit(const std::array<double, 2> &stiffness_factors) const;
 
     /** Registers what the parts know of the last step, for all ranks. */
     void add_to(Reduction &reduction);

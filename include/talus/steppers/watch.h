@@ -47,6 +47,7 @@ namespace Talus
     /** Says which particle of all ranks broke which limit where, and what to do. Collective. */
     void        describe_failure(Report &report) const;
     std::string describe(const unsigned int p, const Limit limit) const;
+    std::string lone_particles() const; // what they bear
 
     Model<dim>                       &model;
     const std::vector<MaterialRange> *ranges = nullptr;

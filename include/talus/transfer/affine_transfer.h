@@ -35,6 +35,8 @@ namespace Talus
       });
     }
 
+    std::array<double, 2> stiffness_factors() const override { return Scheme<dim>::stiffness_factors; }
+
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
                           const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) override
     {

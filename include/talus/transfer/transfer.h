@@ -23,6 +23,12 @@ namespace Talus
     /** Makes the added fields consistent with the initial velocity gradient. */
     virtual void initialize(const Kernel<dim> &, WorkingSet<dim> &) const {}
 
+    /**
+     * A lone particle of a fluid is stable while dt^2 c^2 sum_d (a S_d + b q_d) / h_d^2 <= 1, see
+     * Kernel::greatest_stiffness(): the scheme's a and b. Theory: doc/walls.md.
+     */
+    virtual std::array<double, 2> stiffness_factors() const { return {{0.5, 0.}}; }
+
     /** What particles may ask of the grid around them. */
     virtual Reach reach(const Kernel<dim> &kernel) const { return kernel.reach(); }
 
