@@ -210,7 +210,7 @@ namespace Talus
       {
         const auto equal = rest.find('=');
         AssertThrow(equal != std::string::npos,
-                    InputError(origin + ": expected 'set entry = value', found '" + line + "'."));
+                    InputError(origin + ": expected 'set entry = value', found '" + shortened(line) + "'."));
         auto here = path;
         here.push_back(Utilities::trim(rest.substr(0, equal)));
         const auto known = settings.find(join(here));
@@ -219,8 +219,9 @@ namespace Talus
         settings[join(here)] = {Utilities::trim(rest.substr(equal + 1)), origin};
       }
       else
-        throw InputError(origin + ": cannot understand '" + line +
-                         "'. A line is 'subsection name', 'set entry = value', 'include file', 'end' or a # comment.");
+        throw InputError(origin + ": cannot understand '" + shortened(line) + "'." +
+                         (line.find('=') == std::string::npos ? "" : " Is 'set' missing before it?") +
+                         " A line is 'subsection name', 'set entry = value', 'include file', 'end' or a # comment.");
     }
     AssertThrow(path.size() == depth, InputError(opened_at.back() + ": subsection '" + path.back() +
                                                  "' is never closed. Add 'end' where it stops."));
@@ -230,8 +231,8 @@ namespace Talus
   void Parameters::add_override(const std::string &text)
   {
     const auto equal = text.find('=');
-    AssertThrow(equal != std::string::npos, InputError("--set \"" + text + "\": expected \"Section/Entry = value\"."));
-    settings[join(split(text.substr(0, equal)))] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + text + "\""};
+    AssertThrow(equal != std::string::npos, InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
+    settings[join(split(text.substr(0, equal)))] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
   }
 
   const Parameters::Setting *Parameters::find(const std::string &section, const std::string &entry) const
@@ -260,7 +261,7 @@ namespace Talus
       for (const auto &choice : choices)
         list += (list.empty() ? "" : ", ") + choice;
       throw InputError(setting->origin + ": " + describe(parameter_key(section, entry)) + ": there is no '" +
-                       setting->value + "'." + did_you_mean(setting->value, choices) + " Choices: " + list + ".");
+                       shortened(setting->value) + "'." + did_you_mean(setting->value, choices) + " Choices: " + list + ".");
     }
     return setting->value;
   }
@@ -286,6 +287,36 @@ namespace Talus
                   InputError(where + "'" + list[i] + "' stands there twice. Give each object its own name."));
     }
     return list;
+  }
+
+  bool Parameters::has_section(const std::string &section) const
+  {
+    const std::string start   = parameter_key(section, "");
+    const auto        setting = settings.lower_bound(start);
+    return setting != settings.end() && setting->first.compare(0, start.size(), start) == 0;
+  }
+
+  void Parameters::allow(const std::string &section, const std::string &entry, const std::string &reason)
+  {
+    idle[parameter_key(section, entry)] = reason;
+    if (!reason.empty() && is_set(section, entry))
+      warn(EntryError(section, entry, "it has no effect: " + reason));
+  }
+
+  std::vector<std::string> Parameters::declared_by(const std::function<void()> &build)
+  {
+    ParameterAcceptor::prm.clear();
+    build();
+    std::ostringstream text;
+    ParameterAcceptor::prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::Short);
+    ParameterAcceptor::prm.clear();
+    std::istringstream       in(text.str());
+    Parameters               declared;
+    std::vector<std::string> path, entries;
+    declared.scan(in, "declared", path);
+    for (const auto &setting : declared.settings)
+      entries.push_back(setting.first);
+    return entries;
   }
 
   void Parameters::reject_unknown(const std::string &key, const Setting &setting) const
@@ -325,6 +356,8 @@ namespace Talus
     auto &prm = ParameterAcceptor::prm;
     for (const auto &[key, setting] : settings)
     {
+      if (idle.count(key) > 0)
+        continue;
       const auto path = split(parent(key));
       // set() finds out what is not declared; get() would do so in Debug builds only.
       enter(prm, path);
@@ -347,7 +380,7 @@ namespace Talus
       leave(prm, path);
       if (!is_known)
         reject_unknown(key, setting);
-      AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + setting.value +
+      AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + shortened(setting.value) +
                                               "' is not a valid value. Give " + describe_pattern(problem) + "."));
     }
     try

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/exceptions.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -69,6 +71,9 @@ namespace Talus
      * Why the material cannot start with a stress (xx, yy, zz, xy, xz, yz), and what to do; empty: it can.
      */
     virtual std::string refusal(const std::array<double, 6> & /* initial_stress */) const { return ""; }
+
+    /** What is possible and hardly meant among its entries: warnings before the first step. */
+    virtual std::vector<EntryError> doubts() const { return {}; }
 
     /**
      * True for a law that asks nothing but the volume: F is then not integrated but diag(J, 1, 1) with J = density

@@ -14,6 +14,12 @@ namespace Talus
   class References
   {
   public:
+    /**
+     * Lets the entries of references that are switched off stand in the file, misspelt ones excepted. Before any other
+     * object is made.
+     */
+    static void allow_idle_entries(Parameters &parameters);
+
     /** Adds what it keeps on the particles. */
     References(Parameters &parameters, Model<dim> &model, const Communicator &communicator);
 
