@@ -232,13 +232,29 @@ namespace Talus
   {
     const auto equal = text.find('=');
     AssertThrow(equal != std::string::npos, InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
-    settings[join(split(text.substr(0, equal)))] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
+    const std::string key   = join(split(text.substr(0, equal)));
+    const auto        known = settings.find(key);
+    if (known != settings.end() && leaf(key) == "Names")
+      names_of_file.emplace(parent(key), known->second.value);
+    settings[key] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
   }
 
   const Parameters::Setting *Parameters::find(const std::string &section, const std::string &entry) const
   {
     const auto setting = settings.find(parameter_key(section, entry));
     return setting == settings.end() ? nullptr : &setting->second;
+  }
+
+  bool Parameters::is_left_out(const std::string &key) const
+  {
+    for (const auto &[section, names] : names_of_file)
+    {
+      const auto now = Utilities::split_string_list(settings.at(section + "/Names").value);
+      for (const auto &name : Utilities::split_string_list(names))
+        if (key.rfind(section + "/" + name + "/", 0) == 0 && std::find(now.begin(), now.end(), name) == now.end())
+          return true;
+    }
+    return false;
   }
 
   std::string Parameters::choose_from(const std::string &section, const std::string &entry,
@@ -356,7 +372,7 @@ namespace Talus
     auto &prm = ParameterAcceptor::prm;
     for (const auto &[key, setting] : settings)
     {
-      if (idle.count(key) > 0)
+      if (idle.count(key) > 0 || is_left_out(key))
         continue;
       const auto path = split(parent(key));
       // set() finds out what is not declared; get() would do so in Debug builds only.
