@@ -190,7 +190,11 @@ namespace Talus
       }
       else if (starts_with(line, "end", rest))
       {
-        AssertThrow(rest.empty(), InputError(origin + ": nothing may follow 'end'."));
+        // "End time = 1" is meant as an entry.
+        AssertThrow(rest.empty(), InputError(origin + (line.find('=') == std::string::npos ?
+                                                         ": nothing may follow 'end'." :
+                                                         ": cannot understand '" + shortened(line) +
+                                                           "'. Is 'set' missing before it? Nothing may follow 'end'.")));
         AssertThrow(path.size() > depth, InputError(origin + ": this 'end' closes no subsection. Remove it."));
         path.pop_back();
         opened_at.pop_back();
@@ -346,6 +350,12 @@ namespace Talus
     for (const auto &other : declared.settings)
       if (parent(other.first) == parent(key))
         siblings.push_back(leaf(other.first));
+    for (const auto &[other, reason] : idle)
+    {
+      if (parent(other) == parent(key))
+        siblings.push_back(leaf(other));
+      known_sections.push_back(parent(other));
+    }
     // Looking for the entry has made its section and those around it.
     for (const auto &section : declared.sections)
       if ((key + "/").find(section.first + "/") != 0)

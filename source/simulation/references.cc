@@ -56,7 +56,10 @@ namespace Talus
       errors.resize(Verification<dim>::columns().size());
     if (parameters.choose_from(section, "Compare", "no", "no|yes",
                                "Solve the problem by finite elements too, for comparison.") == "no")
+    {
+      is_switched_off = parameters.has_section(section);
       return;
+    }
     const std::string reference = choose_model(parameters);
     if (reference == "J2")
       load_curve = std::make_unique<LoadCurve<dim>>(parameters, section, communicator);
@@ -67,6 +70,12 @@ namespace Talus
       comparison = std::make_unique<Comparison<dim>>(parameters, section, model.material_names, communicator);
       comparison->add_fields(model.particles);
     }
+  }
+
+  template <int dim>
+  std::vector<std::string> References<dim>::idle_fields() const
+  {
+    return is_switched_off ? Comparison<dim>::field_names() : std::vector<std::string>{};
   }
 
   template <int dim>

@@ -130,6 +130,8 @@ namespace Talus
   {
     output_section    = timing.add("output");
     reference_section = timing.add("finite element reference");
+    output.leave_out(references.idle_fields());
+    probes.leave_out(references.idle_fields());
     output.check(model.particles);
     output.open(communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -185,7 +187,7 @@ namespace Talus
   {
     if (progress)
       progress->end_line();
-    say("warning: " + shortened(text) + '\n');
+    say("warning: " + shortened(text, 1000) + '\n');
   }
 
   template <int dim>
