@@ -96,10 +96,11 @@ namespace Talus
     // Where nearly all was taken out again (a wall has stopped the body), what is left is the error of large sums, and
     // no bound.
     constexpr double share_that_bounds = 0.05;
-    if (energy <= 2 * std::max(available, share_that_bounds * most_available) + floor)
+    const double     bound             = std::max(available, share_that_bounds * most_available);
+    if (energy <= 2 * bound + floor)
       return;
     std::ostringstream message;
-    message << "The " << name << " " << energy << moment.text() << " is more than twice the " << available
+    message << "The " << name << " " << energy << moment.text() << " is more than twice the " << bound
             << " that initial state, body force, tractions and conditions account for: the run is unstable. "
             << culprit() << ". " << remedy_of_instability(model);
     throw RunError(message.str());

@@ -59,9 +59,18 @@ namespace Talus
       for (const auto &list : condition->owned_nodes())
         for (const unsigned int i : list)
           is_held[i] = true;
+    // Edges of the face are those of others as well, and have their conditions.
     unsigned int n_held = 0;
     for (const unsigned int i : of_face)
-      n_held += is_held[i];
+    {
+      bool is_edge = false;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int index = model.grid.node_index[i][d];
+        is_edge         = is_edge || (d != face / 2 && (index == 0 || index == model.grid.lattice.n_cells[d]));
+      }
+      n_held += is_held[i] && !is_edge;
+    }
     const std::string name = std::string(1, "xyz"[face / 2]) + (face % 2 == 0 ? "-" : "+");
     if (Utilities::MPI::sum(n_held, model.grid.communicator) == 0)
       return "The face " + name + " has no condition: give it one with 'Boundary ids = " + std::to_string(face) +
