@@ -28,7 +28,7 @@ namespace Talus
     for (unsigned int b = 0; b < spacings.size(); ++b)
     {
       spacings[b] = std::pow(spacings[b], 1. / dim);
-      is_solid.push_back(!model.materials[model.bodies[b]->material]->carries_volume_only());
+      is_solid.push_back(model.materials[model.bodies[b]->material]->bears_tension());
     }
   }
 

@@ -348,11 +348,11 @@ def case_fracture(runs):
 
 
 def case_unrolled_slide(runs):
-    """Tangential over normal reaction of the bed while all of the debris slides."""
-    s = runs.statistics("unrolled_slide.prm", "slide", "Run/End time = 1")
-    late = [k for k, t in enumerate(s["time"]) if t > 0.5]
+    """Tangential over normal reaction of the bed, when next to nothing spreads to the sides any more."""
+    s = runs.statistics("unrolled_slide.prm", "slide", "Run/End time = 2.2", "Output/Grid = false")
+    late = [k for k, t in enumerate(s["time"]) if t > 1.8]
     ratio = sum(s["reaction bed x"][k] for k in late) / -sum(s["reaction bed z"][k] for k in late)
-    runs.check(f"ratio {ratio:.4f}", ratio / 0.3 - 1, 2e-3)
+    runs.check(f"ratio {ratio:.4f}", ratio / 0.3 - 1, 5e-3)
 
 
 if __name__ == "__main__":

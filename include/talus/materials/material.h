@@ -81,6 +81,9 @@ namespace Talus
      */
     virtual bool carries_volume_only() const { return false; }
 
+    /** False for a law whose particles part without resistance: water and dry sand. */
+    virtual bool bears_tension() const { return !carries_volume_only(); }
+
     /** A particle that has expanded beyond this volume ratio J has not stayed in one piece: the run has failed [1]. */
     virtual double largest_volume_ratio() const { return 10; }
 

@@ -11,7 +11,7 @@ namespace Talus
    * distance of neighbours is the largest principal stretch of F times the initial spacing, the reach of a kernel of
    * support R (n nodes) 2 R - 1 spacings of the grid, 1 for the linear, 2 for the quadratic, 3 for the cubic one. In
    * shear others come between: the space ahead of the particle must be emptier than that around it as well, by the mass
-   * of the nodes. Fluids have no neighbours to keep, and domains that follow their particles (CPDI) leave no gap.
+   * of the nodes. Water and dry sand have no neighbours to keep, and domains that follow their particles (CPDI) leave no gap.
    * Test: tests/inputs.
    */
   template <int dim>
