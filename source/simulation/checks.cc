@@ -77,6 +77,7 @@ namespace Talus
     check_layers();
     check_yield();
     check_materials();
+    check_idle_entries();
     check_intervals();
     check_edges();
     check_floor();

@@ -1,5 +1,7 @@
 #include <talus/simulation/checks.h>
 
+#include <cstdlib>
+#include <iomanip>
 #include <sstream>
 
 namespace Talus
@@ -98,10 +100,39 @@ namespace Talus
   }
 
   template <int dim>
+  void Checks<dim>::check_idle_entries()
+  {
+    const auto number = [&](const std::string &section, const std::string &entry) {
+      return std::strtod(parameters.value(section, entry, "0").c_str(), nullptr);
+    };
+    // Warns of an entry that is set beside another that makes it idle.
+    const auto idle = [&](const std::string &section, const std::string &entry, const bool is_idle,
+                          const std::string &reason) {
+      if (is_idle && parameters.is_set(section, entry))
+        warn(section, entry, "it has no effect: " + reason);
+    };
+    idle("/Run", "Courant number", number("/Run", "Step size") > 0, "'Step size' says how long steps are.");
+    const std::string transfer = parameters.value("/Transfer", "Type", "TPIC");
+    for (const auto &body : model.bodies)
+    {
+      const std::string section = body->get_section_name();
+      idle(section, "Seed", number(section, "Jitter") == 0, "'Jitter' is 0.");
+      idle(section, "Velocity gradient", transfer == "FLIP" || transfer == "PIC",
+           "the transfer " + transfer + " has no gradients of particles.");
+    }
+    for (const auto &condition : model.boundary.conditions)
+    {
+      const std::string section = condition->get_section_name();
+      idle(section, "Wall velocity", number(section, "Friction coefficient") == 0,
+           "a wall moves along itself, and without a 'Friction coefficient' nothing follows it.");
+    }
+  }
+
+  template <int dim>
   void Checks<dim>::check_steps(const double step_size, const double signal_speed, const unsigned int max_steps)
   {
     const double h        = model.grid.lattice.smallest_spacing();
-    const bool   is_fixed = parameters.is_set("/Run", "Step size");
+    const bool   is_fixed = std::strtod(parameters.value("/Run", "Step size", "0").c_str(), nullptr) > 0;
     const std::string entry = is_fixed ? "Step size" : "Courant number";
     const double n_steps    = end_time / step_size;
     if (n_steps > 1e9 && max_steps == 0)
@@ -123,6 +154,7 @@ namespace Talus
   template void Checks<dim>::check_intervals();                                                                        \
   template void Checks<dim>::check_edges();                                                                            \
   template void Checks<dim>::check_floor();                                                                            \
+  template void Checks<dim>::check_idle_entries();                                                                     \
   template void Checks<dim>::check_steps(const double, const double, const unsigned int);
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -279,6 +279,10 @@ def case_checks(runs):
         warns("force", "'Position' in section 'Tractions/load'.*no place", body="set Lower corner = 0, 0{half}\n    set Upper corner = 1.5, 1{one}".replace("{half}", third),
               more=f"subsection Tractions\n  set Names = load\n  subsection load\n    set Type = force\n    set Force = 1; 0{zero}\n  end\nend\n")
         warns("fast", "'Step size'.*a signal crosses a cell in", run="set Step size = 1e-2\n  set Number of steps = 1")
+        warns("both", "entry 'Courant number' in section 'Run': it has no effect", run="set Step size = 1e-4\n  set Courant number = 0.3")
+        warns("seed", "'Seed' in section 'Bodies/block': it has no effect: 'Jitter' is 0", body=BLOCK + "\n    set Seed = 3")
+        warns("smooth", "'Wall velocity' in section 'Conditions/floor': it has no effect",
+              condition=f"set Boundary ids = 2\n    set Type = friction\n    set Wall velocity = 1; 0{zero}")
         warns("idle", "'Unit weight' in section 'Bodies/block': it has no effect: 'Initial stress' is 'none'",
               body=BLOCK + "\n    set Unit weight = 1e4")
     soft = write(runs, "soft.prm", text_of(2, run="set Body force = 0; -10", material="set Density = 1e9").replace("set Density = 1e3\n", ""))

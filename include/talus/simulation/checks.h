@@ -35,6 +35,7 @@ namespace Talus
     void check_layers();
     void check_yield();
     void check_materials();
+    void check_idle_entries();
 
     // Conditions
     void check_intervals();
