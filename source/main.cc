@@ -15,6 +15,8 @@ namespace
   template <int dim>
   void run(Parameters &parameters, const CommandLine &command_line)
   {
+    References<dim>::allow_idle_entries(parameters);
+    parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
     Simulation<dim> simulation(parameters, MPI_COMM_WORLD);
     parameters.parse();
     if (!command_line.prints_parameters)
@@ -28,7 +30,7 @@ namespace
     Parameters parameters(command_line.file_name, command_line.overrides);
     try
     {
-      if (parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.") == "2")
+      if (parameters.value("", "Dimension", "2") == "2")
         run<2>(parameters, command_line);
       else
         run<3>(parameters, command_line);

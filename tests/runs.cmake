@@ -128,3 +128,12 @@ foreach(case path silo_2d silo_3d drop initial_stress far mirror_reaction water)
       $<TARGET_FILE:talus> ${work}/states/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()
 endforeach()
+
+# Inputs as people write them: right, or refused with the cause.
+foreach(case grid_lines point_files box_edge overlap moving_wall formulas no_floor surface_level checks switched_off messages
+    fracture unrolled_slide)
+  foreach(ranks 1 2)
+    talus_add_run(inputs.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/inputs/run.py
+      $<TARGET_FILE:talus> ${work}/inputs/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()

@@ -35,6 +35,11 @@ namespace Talus
     if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
       throw EntryError(get_section_name(), "Lower corner",
                        "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+    for (unsigned int d = 0; d < lower.size(); ++d)
+      if (!(upper[d] >= lower[d]))
+        throw EntryError(get_section_name(), "Upper corner",
+                         "the box is upside down: this corner must not lie below the lower corner, as it does along " +
+                           std::string(1, "xyz"[d]) + ". Exchange the two numbers.");
     faces = boundary_ids;
     positions.clear();
     for (const std::string &half_space : half_spaces)
@@ -65,6 +70,23 @@ namespace Talus
                        "cannot understand '" + text + "'. Write an axis, <= or >=, and a number: x <= 0.1");
     faces.push_back(2 * (parts[1].str()[0] - 'x') + (parts[2] == ">="));
     positions.push_back(position);
+  }
+
+  template <int dim>
+  std::vector<typename Condition<dim>::Edge> Condition<dim>::edges() const
+  {
+    std::vector<Edge> edges;
+    for (unsigned int s = 0; s < positions.size(); ++s)
+    {
+      const unsigned int face = faces[boundary_ids.size() + s];
+      edges.push_back({face / 2, face % 2 == 0, positions[s], "Half spaces"});
+    }
+    for (unsigned int d = 0; d < lower.size(); ++d)
+    {
+      edges.push_back({d, false, lower[d], "Lower corner"});
+      edges.push_back({d, true, upper[d], "Upper corner"});
+    }
+    return edges;
   }
 
   template <int dim>

@@ -153,6 +153,29 @@ namespace Talus
                            "it must not be negative; 0 is a wall without friction.");
       }
 
+      /** A wall stays where it is: what moves along its normal is no face of the grid, and no plane. */
+      void check_before_start(const Grid<dim> &grid, const double end_time) const override
+      {
+        // Looked at here and there, and now and then: what moves does so everywhere, or nearly so.
+        double             worst   = 0;
+        const unsigned int n_times = wall.depends_on_space() ? 11 : 101, n_places = wall.depends_on_space() ? 100 : 1;
+        for (unsigned int f = 0; f < this->faces.size(); ++f)
+        {
+          const auto        &list = this->owned_nodes()[f];
+          const unsigned int step = list.size() / n_places + 1;
+          for (unsigned int i = 0; i < list.size(); i += step)
+            for (unsigned int k = 0; k < n_times; ++k)
+            {
+              const auto v = wall.value(grid.node_position(list[i]), end_time * k / (n_times - 1));
+              worst        = std::max(worst, std::abs(v[this->faces[f] / 2]));
+            }
+        }
+        if (Utilities::MPI::max(worst, grid.communicator) > 0)
+          throw EntryError(this->get_section_name(), "Wall velocity",
+                           "a wall cannot move along its normal, it stays where the grid or the plane is. Set that component "
+                           "to 0; to push a body, take a condition of type 'velocity' on a box of nodes.");
+      }
+
     private:
       void prescribe(const double time, Grid<dim> &grid) override
       {

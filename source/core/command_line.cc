@@ -69,7 +69,13 @@ namespace Talus
       std::string message = text.str();
       while (!message.empty() && std::isspace(message.back()))
         message.pop_back();
-      return message;
+      // Ten lines of a terminal at most.
+      std::size_t end = 0;
+      for (unsigned int line = 0; line < 10 && end != std::string::npos; ++line)
+        end = message.find('\n', end + (line > 0));
+      if (end != std::string::npos)
+        message = message.substr(0, end);
+      return shortened(message, 1000);
     }
 
     /** Whether all ranks get here within two seconds. */

@@ -4,6 +4,7 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
 #include <iostream>
 #include <regex>
 #include <sstream>
@@ -48,7 +49,11 @@ namespace Talus
     if (list.size() != dim)
       throw EntryError(section, entry,
                        "expected " + std::to_string(dim) + " expressions separated by ';', found " +
-                         std::to_string(list.size()) + " in '" + expressions + "'.");
+                         std::to_string(list.size()) + " in '" + shortened(expressions) + "'.");
+    this->expressions = expressions;
+    this->section     = section;
+    this->entry       = entry;
+
     zero   = true;
     varies = false;
     for (const auto &expression : list)
@@ -62,16 +67,32 @@ namespace Talus
     parser                      = std::make_unique<FunctionParser<dim>>(dim);
     const std::string reason    = formula_error([&] {
       parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
-      value(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
+      evaluate(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
     });
     if (!reason.empty())
       throw EntryError(section, entry,
-                       "cannot understand '" + expressions + "': " + reason + ". Use " + variables +
+                       "cannot understand '" + shortened(expressions) + "': " + shortened(reason, 200) + ". Use " + variables +
                          ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
   }
 
   template <int dim>
   Tensor<1, dim> ParsedVector<dim>::value(const Point<dim> &x, const double time) const
+  {
+    const Tensor<1, dim> v = evaluate(x, time);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!std::isfinite(v[d]))
+      {
+        std::ostringstream where;
+        where << (varies ? " at " + to_text<dim>(x) + "," : "") << " at t = " << time;
+        throw EntryError(section, entry,
+                         "the formula '" + shortened(expressions) + "' has no finite value" + where.str() +
+                           ". Correct it, so that it is defined everywhere and up to the end of the run.");
+      }
+    return v;
+  }
+
+  template <int dim>
+  Tensor<1, dim> ParsedVector<dim>::evaluate(const Point<dim> &x, const double time) const
   {
     Tensor<1, dim> v;
     parser->set_time(time);

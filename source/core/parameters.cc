@@ -190,7 +190,11 @@ namespace Talus
       }
       else if (starts_with(line, "end", rest))
       {
-        AssertThrow(rest.empty(), InputError(origin + ": nothing may follow 'end'."));
+        // "End time = 1" is meant as an entry.
+        AssertThrow(rest.empty(), InputError(origin + (line.find('=') == std::string::npos ?
+                                                         ": nothing may follow 'end'." :
+                                                         ": cannot understand '" + shortened(line) +
+                                                           "'. Is 'set' missing before it? Nothing may follow 'end'.")));
         AssertThrow(path.size() > depth, InputError(origin + ": this 'end' closes no subsection. Remove it."));
         path.pop_back();
         opened_at.pop_back();
@@ -210,7 +214,7 @@ namespace Talus
       {
         const auto equal = rest.find('=');
         AssertThrow(equal != std::string::npos,
-                    InputError(origin + ": expected 'set entry = value', found '" + line + "'."));
+                    InputError(origin + ": expected 'set entry = value', found '" + shortened(line) + "'."));
         auto here = path;
         here.push_back(Utilities::trim(rest.substr(0, equal)));
         const auto known = settings.find(join(here));
@@ -219,8 +223,9 @@ namespace Talus
         settings[join(here)] = {Utilities::trim(rest.substr(equal + 1)), origin};
       }
       else
-        throw InputError(origin + ": cannot understand '" + line +
-                         "'. A line is 'subsection name', 'set entry = value', 'include file', 'end' or a # comment.");
+        throw InputError(origin + ": cannot understand '" + shortened(line) + "'." +
+                         (line.find('=') == std::string::npos ? "" : " Is 'set' missing before it?") +
+                         " A line is 'subsection name', 'set entry = value', 'include file', 'end' or a # comment.");
     }
     AssertThrow(path.size() == depth, InputError(opened_at.back() + ": subsection '" + path.back() +
                                                  "' is never closed. Add 'end' where it stops."));
@@ -230,14 +235,30 @@ namespace Talus
   void Parameters::add_override(const std::string &text)
   {
     const auto equal = text.find('=');
-    AssertThrow(equal != std::string::npos, InputError("--set \"" + text + "\": expected \"Section/Entry = value\"."));
-    settings[join(split(text.substr(0, equal)))] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + text + "\""};
+    AssertThrow(equal != std::string::npos, InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
+    const std::string key   = join(split(text.substr(0, equal)));
+    const auto        known = settings.find(key);
+    if (known != settings.end() && leaf(key) == "Names")
+      names_of_file.emplace(parent(key), known->second.value);
+    settings[key] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
   }
 
   const Parameters::Setting *Parameters::find(const std::string &section, const std::string &entry) const
   {
     const auto setting = settings.find(parameter_key(section, entry));
     return setting == settings.end() ? nullptr : &setting->second;
+  }
+
+  bool Parameters::is_left_out(const std::string &key) const
+  {
+    for (const auto &[section, names] : names_of_file)
+    {
+      const auto now = Utilities::split_string_list(settings.at(section + "/Names").value);
+      for (const auto &name : Utilities::split_string_list(names))
+        if (key.rfind(section + "/" + name + "/", 0) == 0 && std::find(now.begin(), now.end(), name) == now.end())
+          return true;
+    }
+    return false;
   }
 
   std::string Parameters::choose_from(const std::string &section, const std::string &entry,
@@ -260,7 +281,7 @@ namespace Talus
       for (const auto &choice : choices)
         list += (list.empty() ? "" : ", ") + choice;
       throw InputError(setting->origin + ": " + describe(parameter_key(section, entry)) + ": there is no '" +
-                       setting->value + "'." + did_you_mean(setting->value, choices) + " Choices: " + list + ".");
+                       shortened(setting->value) + "'." + did_you_mean(setting->value, choices) + " Choices: " + list + ".");
     }
     return setting->value;
   }
@@ -288,6 +309,36 @@ namespace Talus
     return list;
   }
 
+  bool Parameters::has_section(const std::string &section) const
+  {
+    const std::string start   = parameter_key(section, "");
+    const auto        setting = settings.lower_bound(start);
+    return setting != settings.end() && setting->first.compare(0, start.size(), start) == 0;
+  }
+
+  void Parameters::allow(const std::string &section, const std::string &entry, const std::string &reason)
+  {
+    idle[parameter_key(section, entry)] = reason;
+    if (!reason.empty() && is_set(section, entry))
+      warn(EntryError(section, entry, "it has no effect: " + reason));
+  }
+
+  std::vector<std::string> Parameters::declared_by(const std::function<void()> &build)
+  {
+    ParameterAcceptor::prm.clear();
+    build();
+    std::ostringstream text;
+    ParameterAcceptor::prm.print_parameters(text, ParameterHandler::PRM | ParameterHandler::Short);
+    ParameterAcceptor::prm.clear();
+    std::istringstream       in(text.str());
+    Parameters               declared;
+    std::vector<std::string> path, entries;
+    declared.scan(in, "declared", path);
+    for (const auto &setting : declared.settings)
+      entries.push_back(setting.first);
+    return entries;
+  }
+
   void Parameters::reject_unknown(const std::string &key, const Setting &setting) const
   {
     std::ostringstream text;
@@ -299,6 +350,12 @@ namespace Talus
     for (const auto &other : declared.settings)
       if (parent(other.first) == parent(key))
         siblings.push_back(leaf(other.first));
+    for (const auto &[other, reason] : idle)
+    {
+      if (parent(other) == parent(key))
+        siblings.push_back(leaf(other));
+      known_sections.push_back(parent(other));
+    }
     // Looking for the entry has made its section and those around it.
     for (const auto &section : declared.sections)
       if ((key + "/").find(section.first + "/") != 0)
@@ -325,6 +382,8 @@ namespace Talus
     auto &prm = ParameterAcceptor::prm;
     for (const auto &[key, setting] : settings)
     {
+      if (idle.count(key) > 0 || is_left_out(key))
+        continue;
       const auto path = split(parent(key));
       // set() finds out what is not declared; get() would do so in Debug builds only.
       enter(prm, path);
@@ -347,7 +406,7 @@ namespace Talus
       leave(prm, path);
       if (!is_known)
         reject_unknown(key, setting);
-      AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + setting.value +
+      AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + shortened(setting.value) +
                                               "' is not a valid value. Give " + describe_pattern(problem) + "."));
     }
     try

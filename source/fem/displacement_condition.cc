@@ -42,6 +42,11 @@ namespace Talus
     if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
       throw EntryError(section, "Lower corner",
                        "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+    for (unsigned int i = 0; i < lower.size(); ++i)
+      if (!(upper[i] >= lower[i]))
+        throw EntryError(section, "Upper corner",
+                         "the box is upside down: this corner must not lie below the lower corner, as it does along " +
+                           std::string(1, axes[i]) + ". Exchange the two numbers.");
     if (boundary_ids.empty() && lower.empty())
       throw EntryError(section, "Boundary ids",
                        "the condition '" + name + "' holds nowhere. Give it one or more of the ids 0 to " +

@@ -19,7 +19,6 @@ namespace Talus
     const double       tolerance      = 1e-10;
     const double       line_accuracy  = 0.3;
     const double       greatest_force = 1e140; // sums of squares are numbers
-    const unsigned int max_iterations = 25, max_halvings = 10;
   } // namespace
 
   template <int dim>
@@ -66,7 +65,8 @@ namespace Talus
   template <int dim>
   void PlasticReference<dim>::advance(const double time, const double full_step)
   {
-    double step = time - solved_time;
+    double             step             = time - solved_time;
+    const unsigned int iterations_before = iterations, halvings_before = halvings;
     while (solved_time < time)
     {
       const bool   is_last = solved_time + step >= time - 1e-9 * full_step;
@@ -81,12 +81,16 @@ namespace Talus
       older_time = solved_time;
       step /= 2.;
       ++halvings;
-      if (step < full_step / (1 << max_halvings))
+      const unsigned int n_iterations = iterations - iterations_before, n_halvings = halvings - halvings_before;
+      const bool         is_shortest  = step < full_step / (1 << limits.halvings);
+      if (is_shortest || n_iterations > limits.all_iterations || n_halvings > limits.all_halvings)
       {
         std::ostringstream text;
-        text << "The plastic reference finds no equilibrium after t = " << solved_time << ", not even for a step of "
-             << 2. * step << ": " << imbalance_history.back() << " of the forces are out of balance after "
-             << max_iterations << " iterations. Soften the material less, use finer cells in section '"
+        text << "The plastic reference finds no equilibrium after t = " << solved_time << (is_shortest ? ", not even" : "")
+             << " for a step of " << 2. * step << ": " << imbalance_history.back()
+             << " of the forces are out of balance after " << imbalance_history.size() << " iterations (" << tolerance
+             << " is wanted). The load step to t = " << time << " took " << n_iterations << " iterations and "
+             << n_halvings << " halvings until here. Soften the material less, take more 'Steps' or finer cells in section '"
              << get_section_name() << "', or end earlier.";
         throw RunError(text.str());
       }
@@ -109,7 +113,7 @@ namespace Talus
 
     imbalance_history.clear();
     double load = 0.;
-    for (unsigned int n = 0; n < max_iterations; ++n)
+    for (unsigned int n = 0; n < limits.iterations; ++n)
     {
       assemble(conditions.constraints(&solution));
       if (!(right_hand_side.linfty_norm() < greatest_force))

@@ -211,7 +211,7 @@ namespace Talus
       const Point<dim> x         = node_position(i);
       bool             is_inside = true;
       for (unsigned int d = 0; d < dim; ++d)
-        is_inside = is_inside && x[d] >= lower[d] && x[d] <= upper[d];
+        is_inside = is_inside && lattice.is_between(x[d], lower[d], upper[d], d);
       if (is_inside)
         nodes.push_back(i);
     }

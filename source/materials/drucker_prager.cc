@@ -43,6 +43,16 @@ namespace Talus
           "with neither cohesion nor friction the material has no strength. Give one of them, or use a fluid.");
   }
 
+  std::vector<EntryError> DruckerPrager::doubts() const
+  {
+    std::vector<EntryError> doubts;
+    if ((friction_angle > 0 && friction_angle < 1) || friction_angle > 60)
+      doubts.emplace_back(get_section_name(), "Friction angle",
+                          "it is " + std::to_string(friction_angle) +
+                            " degrees; soils have 15 to 45. Radians and tangents are no degrees.");
+    return doubts;
+  }
+
   double DruckerPrager::plane_strain_slope(const double angle)
   {
     const double t = std::tan(angle * numbers::PI / 180);

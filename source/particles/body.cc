@@ -54,6 +54,9 @@ namespace Talus
       add_parameter("Vertical axis", vertical_axis, "Axis along which the weight acts, downwards.", prm,
                     Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"));
     }
+    if (stress_kind == "none")
+      for (const char *entry : {"Stress", "Unit weight", "Surface level", "Rest stress ratio", "Vertical axis"})
+        parameters.allow(section, entry, "'Initial stress' is 'none'.");
   }
 
   template <int dim>
@@ -79,7 +82,7 @@ namespace Talus
       return properties[set.fields[field].first + c];
     };
 
-    const Tensor<1, dim> v = velocity.value(x, 0.);
+    const Tensor<1, dim> v = velocity.evaluate(x, 0.);
     for (unsigned int d = 0; d < dim; ++d)
     {
       value(set.position, d) = value(set.initial_position, d) = x[d];

@@ -76,8 +76,6 @@ namespace Talus
       return true;
     }
 
-    std::string shortened(const std::string &text) { return text.size() > 60 ? text.substr(0, 57) + "..." : text; }
-
     std::string list(const std::vector<std::string> &words)
     {
       std::string text;

@@ -200,6 +200,13 @@ namespace Talus
     return selected;
   }
 
+  void leave_out(const std::vector<std::string> &names, std::vector<std::string> &chosen)
+  {
+    chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
+                                [&](const auto &name) { return std::find(names.begin(), names.end(), name) != names.end(); }),
+                 chosen.end());
+  }
+
   template std::vector<ParticleField<2>> all_particle_fields(const WorkingSet<2> &);
   template std::vector<ParticleField<3>> all_particle_fields(const WorkingSet<3> &);
   template std::vector<ParticleField<2>> select_particle_fields(const WorkingSet<2> &, const std::vector<std::string> &,

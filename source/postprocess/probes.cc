@@ -86,7 +86,11 @@ namespace Talus
   Probes<dim>::Probes(Parameters &parameters, const std::string &section) : ParameterAcceptor(section)
   {
     for (const auto &name : parameters.names(section, "Names of the points and particles that are watched."))
+    {
       probes.push_back(std::make_unique<Probe<dim>>(section + "/" + name, name));
+      if (!parameters.is_set(section + "/" + name, "Position"))
+        parameters.warn(EntryError(section + "/" + name, "Position", "the probe has been given no place and watches the origin."));
+    }
     add_parameter("Fields", field_names, "Particle fields to write into probes.csv.");
   }
 
@@ -126,7 +130,7 @@ namespace Talus
     for (unsigned int d = 0; d < dim; ++d)
     {
       diagonal_squared += grid.lattice.h[d] * grid.lattice.h[d];
-      if (!(probe.position[d] >= grid.lower[d] && probe.position[d] <= grid.upper[d]))
+      if (!grid.lattice.is_between(probe.position[d], grid.lower[d], grid.upper[d], d))
         throw EntryError(probe.get_section_name(), "Position",
                          "the point lies outside the grid. Move it into the grid's box.");
     }

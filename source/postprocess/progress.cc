@@ -46,10 +46,13 @@ namespace Talus
   {
   }
 
-  Progress::~Progress()
+  Progress::~Progress() { end_line(); }
+
+  void Progress::end_line()
   {
     if (is_line_open)
       out << std::endl;
+    is_line_open = false;
   }
 
   void Progress::update(const double time, const unsigned int step)
@@ -77,9 +80,7 @@ namespace Talus
     if (!is_root)
       return;
     print(line(time, step, "took " + clock_time(seconds(Clock::now() - start))));
-    if (is_line_open)
-      out << std::endl;
-    is_line_open = false;
+    end_line();
   }
 
   std::string Progress::line(const double time, const unsigned int step, const std::string &ending) const

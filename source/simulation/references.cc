@@ -1,24 +1,66 @@
 #include <talus/simulation/references.h>
 
+#include <talus/core/registry.h>
+#include <talus/verification/manufactured_solution.h>
+
 #include <sstream>
 
 namespace Talus
 {
+  namespace
+  {
+    const std::string section = "/FEM reference";
+
+    std::string choose_model(Parameters &parameters)
+    {
+      return parameters.choose_from(
+        section, "Model", "linear elastic", "linear elastic|J2|dynamic",
+        "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
+        "plasticity, a load-displacement curve is written; 'dynamic': a neo-Hookean body in "
+        "motion, displacements at points are written.");
+    }
+  } // namespace
+
+  template <int dim>
+  void References<dim>::allow_idle_entries(Parameters &parameters)
+  {
+    const auto allow = [&](const std::function<void()> &build) {
+      for (const std::string &key : Parameters::declared_by(build))
+      {
+        const auto slash = key.rfind('/');
+        if (slash != std::string::npos)
+          parameters.allow(key.substr(0, slash), key.substr(slash + 1));
+      }
+    };
+    if (parameters.value(section, "Compare", "no") == "no" && parameters.has_section(section))
+      allow([&] {
+        const std::string model     = choose_model(parameters);
+        const auto        materials = parameters.names("/Materials", "");
+        if (model == "J2")
+          LoadCurve<dim>(parameters, section, MPI_COMM_SELF);
+        else if (model == "dynamic")
+          ReferenceMotion<dim>(parameters, section, MPI_COMM_SELF);
+        else if (!materials.empty())
+          Comparison<dim>(parameters, section, materials, MPI_COMM_SELF);
+      });
+    if (parameters.value("/Verification", "Solution", "none") == "none" && parameters.has_section("/Verification"))
+      for (const auto &[name, entry] : Registry<ManufacturedSolution<dim>>::get().all())
+        allow([&, &make = entry.make] { make(parameters, "/Verification"); });
+  }
+
   template <int dim>
   References<dim>::References(Parameters &parameters, Model<dim> &model, const Communicator &communicator)
   {
     verification = Verification<dim>::make(parameters, communicator);
     if (verification)
       errors.resize(Verification<dim>::columns().size());
-    const std::string section = "/FEM reference";
     if (parameters.choose_from(section, "Compare", "no", "no|yes",
                                "Solve the problem by finite elements too, for comparison.") == "no")
+    {
+      is_switched_off = parameters.has_section(section);
       return;
-    const std::string reference =
-      parameters.choose_from(section, "Model", "linear elastic", "linear elastic|J2|dynamic",
-                             "'linear elastic': the stress at the end is compared with that of the particles; 'J2': "
-                             "plasticity, a load-displacement curve is written; 'dynamic': a neo-Hookean body in "
-                             "motion, displacements at points are written.");
+    }
+    const std::string reference = choose_model(parameters);
     if (reference == "J2")
       load_curve = std::make_unique<LoadCurve<dim>>(parameters, section, communicator);
     else if (reference == "dynamic")
@@ -28,6 +70,12 @@ namespace Talus
       comparison = std::make_unique<Comparison<dim>>(parameters, section, model.material_names, communicator);
       comparison->add_fields(model.particles);
     }
+  }
+
+  template <int dim>
+  std::vector<std::string> References<dim>::idle_fields() const
+  {
+    return is_switched_off ? Comparison<dim>::field_names() : std::vector<std::string>{};
   }
 
   template <int dim>

@@ -53,6 +53,8 @@ namespace Talus
     model.create([this] { references.start(model); });
     report = stepper->start(model, timing);
     energy.start(report, current_totals().strain_energy);
+    fracture.start(model);
+    Checks<dim>(parameters, model, end_time).run(stepper->step_size(model, report), report.signal_speed, max_steps);
   }
 
   template <int dim>
@@ -75,7 +77,18 @@ namespace Talus
     AssertThrow(!report.has_failed, RunError(report.failure + now.text() + ". " + report.remedy));
     energy.check(model, report, now);
     if (now.step % energy.interval == 0 || is_finished())
+    {
       energy.check_total(model, report, current_totals().strain_energy, now);
+      look_for_fracture();
+    }
+  }
+
+  template <int dim>
+  void Simulation<dim>::look_for_fracture()
+  {
+    const std::string found = fracture.look(model);
+    if (!found.empty())
+      say_warning(found + now.text() + ". " + fracture.remedy);
   }
 
   template <int dim>
@@ -86,6 +99,7 @@ namespace Talus
     if (output.is_statistics_due(now.step) || is_finished())
     {
       totals = current_totals();
+      fracture.measure(model);
       references.measure(now.time, model);
       statistics.write_row(table.row());
       probes.write(now.time, model.particles);
@@ -116,6 +130,8 @@ namespace Talus
   {
     output_section    = timing.add("output");
     reference_section = timing.add("finite element reference");
+    output.leave_out(references.idle_fields());
+    probes.leave_out(references.idle_fields());
     output.check(model.particles);
     output.open(communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -129,6 +145,8 @@ namespace Talus
     fill_table();
     statistics.open(output.directory() + "/statistics.csv", table.columns(), communicator);
     say(summary());
+    for (const auto &warning : parameters.warnings())
+      say_warning(warning);
     progress = std::make_unique<Progress>(communicator, end_time, model.particles.n_global);
   }
 
@@ -143,6 +161,7 @@ namespace Talus
     table.add("energy residual", "energy",
               [this] { return energy.residual(totals.kinetic_energy, totals.strain_energy); });
     table.add("lost momentum", "mass length/time", lost_momentum);
+    fracture.add_to(table);
     model.boundary.add_to(table);
     model.tractions.add_to(table);
     references.add_to(table);
@@ -161,6 +180,14 @@ namespace Talus
       return;
     std::cout << text << std::flush;
     log << text << std::flush;
+  }
+
+  template <int dim>
+  void Simulation<dim>::say_warning(const std::string &text)
+  {
+    if (progress)
+      progress->end_line();
+    say("warning: " + shortened(text, 1000) + '\n');
   }
 
   template <int dim>

@@ -1,7 +1,9 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
 #include <talus/steppers/model.h>
 
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -86,6 +88,7 @@ namespace Talus
                          "none. Take a B-spline.");
       body->shape->create(grid.lattice.h);
     }
+    check_memory();
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
     kernel->attach(grid);
@@ -135,6 +138,30 @@ namespace Talus
     for (unsigned int d = 0; d < dim; ++d)
       sum += std::pow(grid.lattice.smallest_spacing() * grid.lattice.inverse_h[d], 2);
     return 1 / std::sqrt(*greatest * sum);
+  }
+
+  template <int dim>
+  void Model<dim>::check_memory() const
+  {
+    // A body fills a third of the lattice around it at least, and particles take what they carry.
+    double n = 0, most = 0;
+    std::string largest;
+    for (const auto &body : bodies)
+    {
+      const double here = body->shape->n_indices();
+      n += here;
+      if (here > most)
+      {
+        most    = here;
+        largest = body->get_section_name();
+      }
+    }
+    const double wanted = n / 3 * particles.n_columns() * sizeof(double), has = physical_memory(grid.communicator);
+    std::ostringstream text;
+    text << std::setprecision(3) << "the particles of all bodies, up to " << n << " of them, take " << wanted / 1e9
+         << " GB at least, and there are " << has / 1e9 << " GB of memory. Take fewer, a larger spacing or smaller bodies.";
+    if (wanted > has)
+      throw EntryError(largest, "Particles per cell and direction", text.str());
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 #include <talus/core/exceptions.h>
 #include <talus/particles/batch_access.h>
+#include <talus/steppers/remedy.h>
 #include <talus/steppers/watch.h>
 
 #include <algorithm>
@@ -158,22 +159,27 @@ namespace Talus
   void Watch<dim>::describe_failure(Report &report) const
   {
     const auto &particles = model.particles;
-    using Failure         = std::pair<types::particle_index, std::vector<std::string>>;
-    Failure first(std::numeric_limits<types::particle_index>::max(), {});
+    // Its number, whether it left the grid, its place, and what happened to it.
+    using Failure = std::tuple<types::particle_index, bool, std::array<double, dim>, std::string>;
+    Failure first(std::numeric_limits<types::particle_index>::max(), false, {}, "");
     if (failed != particles.none)
     {
+      const auto              x = particles.vector(particles.position, failed);
+      std::array<double, dim> place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = x[d];
       std::ostringstream what;
-      what << "Particle " << particles.id[failed] << ' ' << describe(failed, broken) << ", at "
-           << to_text(particles.vector(particles.position, failed));
-      first = {particles.id[failed],
-               {what.str(), broken == Limit::grid ?
-                              "Enlarge the grid, or lower the Courant number." :
-                              "Lower the Courant number, or correct the kernels near the boundary." + lone_particles()}};
+      what << "Particle " << particles.id[failed] << ' ' << describe(failed, broken) << ", at " << to_text(x);
+      first = {particles.id[failed], broken == Limit::grid && !model.grid.contains(x), place, what.str()};
     }
     for (const auto &other : Utilities::MPI::all_gather(model.grid.communicator, first))
-      first = std::min(first, other);
-    report.failure = first.second[0];
-    report.remedy  = first.second[1];
+      if (std::get<0>(other) < std::get<0>(first))
+        first = other;
+    Tensor<1, dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = std::get<2>(first)[d];
+    report.failure = std::get<3>(first);
+    report.remedy  = std::get<1>(first) ? remedy_of_exit(model, x) : remedy_of_instability(model) + lone_particles();
   }
 
   template <int dim>

@@ -79,6 +79,11 @@ namespace Talus
                                                        "Force per initial area, pressure on the deformed one, or force at a point.");
     body_name =
       parameters.choose_from(section, "Body", body_names.front(), choice(body_names), "Name of the loaded body.");
+    const std::string load = kind == "traction" ? "Traction" : kind == "force" ? "Force" : "Pressure";
+    for (const std::string &entry : kind == "force" ? std::vector<std::string>{load, "Position"} : std::vector<std::string>{load})
+      if (!parameters.is_set(section, entry))
+        parameters.warn(EntryError(section, entry, entry == "Position" ? "the force has been given no place and acts at the origin." :
+                                                                         "the load is zero: it has no effect."));
     if (kind == "traction")
       add_parameter("Traction", function_text,
                     "Force per initial area [stress]: functions of x, y, z, t, separated by ';'.");
@@ -120,6 +125,11 @@ namespace Talus
     if (lower.size() != upper.size() || (!lower.empty() && lower.size() != dim))
       throw EntryError(get_section_name(), "Lower corner",
                        "give both corners of the box with " + std::to_string(dim) + " numbers each.");
+    for (unsigned int d = 0; d < lower.size(); ++d)
+      if (!(upper[d] >= lower[d]))
+        throw EntryError(get_section_name(), "Upper corner",
+                         "the box is upside down: this corner must not lie below the lower corner, as it does along " +
+                           std::string(1, "xyz"[d]) + ". Exchange the two numbers.");
   }
 
   template <int dim>
@@ -164,7 +174,7 @@ namespace Talus
         {
           bool is_inside = true;
           for (unsigned int d = 0; d < lower.size(); ++d)
-            is_inside = is_inside && point.x[d] >= lower[d] && point.x[d] <= upper[d];
+            is_inside = is_inside && grid.lattice.is_between(point.x[d], lower[d], upper[d], d);
           if (!is_inside)
             continue;
           surface.push_back(point);

@@ -4,6 +4,7 @@ void syntax_errors();
 void value_errors();
 void unknown_entries();
 void overrides();
+void idle_entries();
 void included_files();
 void located_errors();
 void printing();
@@ -25,6 +26,7 @@ int main(int argc, char **argv)
                     {"parameters: value errors", value_errors},
                     {"parameters: unknown entries", unknown_entries},
                     {"parameters: overrides", overrides},
+                    {"parameters: idle entries", idle_entries},
                     {"parameters: included files", included_files},
                     {"parameters: located errors", located_errors},
                     {"parameters: printing", printing},

@@ -1,6 +1,7 @@
 #include "../setup.h"
 
 #include <cstdio>
+#include <algorithm>
 #include <fstream>
 
 using namespace Test;
@@ -133,8 +134,44 @@ void overrides()
   error("no equal sign", "Springs/first/Turns 7", {"--set", "Springs/first/Turns 7", "Section/Entry = value"});
   error("unknown entry", "Springs/first/Turn = 7", {"--set", "unknown entry 'Turn'", "Did you mean 'Turns'?"});
   error("bad value", "Springs/first/Turns = x", {"--set", "'x' is not a valid value"});
+  // An object that the file lists and --set leaves out may stay in the file; one that nobody lists may not.
+  const File two("two", "subsection Springs\nset Names = first, second\nsubsection first\nset Turns = 3\nend\n"
+                        "subsection second\nset Turns = 4\nend\nend\n");
+  const auto parse_two = [&](const std::vector<std::string> &overrides) {
+    Parameters parameters(two.name, overrides);
+    parameters.names("/Springs", "");
+    Spring spring("/Springs/first");
+    parameters.parse();
+    return spring.turns;
+  };
+  check_true("left out", parse_two({"Springs/Names = first"}) == 3);
+  check_error<InputError>("not left out", {"nothing reads the section 'Springs/second'"}, [&] { parse_two({}); });
   check_error<InputError>("missing file", {"'missing.prm'", "Check the name"}, [] { Parameters("missing.prm"); });
   check_error<InputError>("a directory", {"'.'", "Check the name"}, [] { Parameters("."); });
+}
+
+void idle_entries()
+{
+  const File file("idle", spring("set Turns = 3\nset Stiffness = 2\n"));
+  const auto declared = Parameters::declared_by([] { Spring spring("/Springs/first"); });
+  check_true("declared by an object", std::find(declared.begin(), declared.end(), "Springs/first/Turns") != declared.end());
+  {
+    Parameters parameters(file.name);
+    for (const auto &key : declared)
+      parameters.allow("/Springs/first", key.substr(key.rfind('/') + 1));
+    parameters.names("/Springs", "");
+    parameters.parse();
+    check_true("no warning", parameters.warnings().empty() && parameters.has_section("/Springs/first") &&
+                               !parameters.has_section("/Spring") && parameters.is_set("/Springs/first", "Turns"));
+  }
+  Parameters parameters(file.name);
+  parameters.allow("/Springs/first", "Turns", "nothing turns.");
+  parameters.allow("/Springs/first", "Colour", "nothing is seen.");
+  check_true("a reason is a warning", parameters.warnings().size() == 1 &&
+                                        parameters.warnings()[0].find("entry 'Turns' in section 'Springs/first': it has no effect: nothing turns.") !=
+                                          std::string::npos);
+  parameters.names("/Springs", "");
+  check_error<InputError>("others are unknown", {"'Springs/first'"}, [&] { parameters.parse(); });
 }
 
 void included_files()

@@ -106,6 +106,17 @@ void boundary_nodes()
     b[d] = lower[d] + 2.5 * h[d];
   }
   check("nodes in a box: 2 per direction", sum(s.grid.nodes_in_box(a, b).size()) - std::pow(2, dim), 0.5);
+  // The edges of a box have a tolerance of a millionth of the spacing.
+  for (const double beyond : {0., 0.9e-6, 2e-6, 1e-3})
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      a[d] = lower[d] + (1 + beyond) * h[d];
+      b[d] = lower[d] + (2 - beyond) * h[d];
+    }
+    check("nodes in a box that ends " + std::to_string(beyond) + " short of them",
+          sum(s.grid.nodes_in_box(a, b).size()) - (beyond < 1e-6 ? std::pow(2, dim) : 0), 0.5);
+  }
 }
 
 /** Each rank adds 1 to the nodes of each of its cells: the sum is the number of cells that share a node. */

@@ -51,5 +51,5 @@ void point_table()
   error("too large", {"1e400 2 3"}, "'1e400' is too large");
   error("infinite", {"inf 2 3"}, "'inf' is not a finite number");
   error("a word", {"1 o.5 3"}, "'o.5' is not a finite number");
-  error("a long word", {"1 2 " + std::string(1000, 'a')}, std::string(57, 'a') + "...");
+  error("a long word", {"1 2 " + std::string(1000, 'a')}, std::string(60, 'a') + " [...] ");
 }

@@ -5,6 +5,9 @@
 #include <talus/core/table.h>
 #include <talus/grid/walls.h>
 
+#include <limits>
+#include <string>
+
 namespace Talus
 {
   /**
@@ -47,6 +50,26 @@ namespace Talus
 
     /** Whether it acts in a step that ends at `time`. */
     bool acts(const double time) const;
+
+    /** Throws EntryError for what it could not carry out in a run up to `end_time`. */
+    virtual void check_before_start(const Grid<dim> & /* grid */, const double /* end_time */) const {}
+
+    /** Its interval [time]. */
+    double start() const { return start_time.empty() ? -std::numeric_limits<double>::infinity() : start_time[0]; }
+    double end() const { return end_time.empty() ? std::numeric_limits<double>::infinity() : end_time[0]; }
+
+    /** Where a box or a half space of nodes ends. */
+    struct Edge
+    {
+      unsigned int axis;
+      bool         is_upper; // nodes below it are meant
+      double       position; // [length]
+      std::string  entry;
+    };
+    std::vector<Edge> edges() const;
+
+    /** This rank's nodes, active or not: of each boundary id, of each half space, and of the box. */
+    const std::vector<std::vector<unsigned int>> &owned_nodes() const { return all_nodes; }
 
     /** True when it leaves the nodes of its faces free to slide along them. */
     virtual bool is_slip() const { return false; }

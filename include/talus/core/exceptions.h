@@ -43,6 +43,12 @@ namespace Talus
     const std::string message;
   };
 
+  /** A text with its middle left out where it is long: what a message quotes, or a message as a whole. */
+  inline std::string shortened(const std::string &text, const std::size_t most = 120)
+  {
+    return text.size() <= most ? text : text.substr(0, most / 2) + " [...] " + text.substr(text.size() - most / 3);
+  }
+
   /** A point as messages write it: "(0.5, 1)". */
   template <int dim>
   std::string to_text(const dealii::Tensor<1, dim> &x)

@@ -20,14 +20,18 @@ namespace Talus
     /** Sets the function; a bad expression is blamed on `entry` of `section` by an EntryError. */
     void initialize(const std::string &expressions, const std::string &section, const std::string &entry);
 
-    /** Value at `x` and `time`. */
+    /** Value at `x` and `time`. Throws EntryError, with formula, place and time, where it is not finite. */
     dealii::Tensor<1, dim> value(const dealii::Point<dim> &x, const double time) const;
+
+    /** The same, whatever it is. */
+    dealii::Tensor<1, dim> evaluate(const dealii::Point<dim> &x, const double time) const;
 
     bool is_zero() const { return zero; }
     bool depends_on_space() const { return varies; }
 
   private:
     std::unique_ptr<dealii::FunctionParser<dim>> parser;
+    std::string                                  expressions, section, entry;
     bool                                         zero   = true;
     bool                                         varies = false;
   };

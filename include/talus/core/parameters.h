@@ -5,6 +5,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,6 +53,37 @@ namespace Talus
     /** Declares and returns the list of names of the objects in a section ("Bodies", ...). */
     std::vector<std::string> names(const std::string &section, const std::string &help);
 
+    /** Whether the file, or `--set`, sets an entry. */
+    bool is_set(const std::string &section, const std::string &entry) const { return find(section, entry) != nullptr; }
+
+    /** What the file sets an entry to, or `default_value`; nothing is declared. */
+    std::string value(const std::string &section, const std::string &entry, const std::string &default_value) const
+    {
+      const Setting *setting = find(section, entry);
+      return setting == nullptr ? default_value : setting->value;
+    }
+
+    /** Whether the file sets anything in a section or in those within. */
+    bool has_section(const std::string &section) const;
+
+    /**
+     * Lets an entry of an object that is switched off stand in the file, where nothing reads it. A `reason` becomes a
+     * warning that it has no effect, if it is set.
+     */
+    void allow(const std::string &section, const std::string &entry, const std::string &reason = "");
+
+    /** Keeps what the user should be told, with the place where the entry was set. */
+    void warn(const EntryError &error) { notes.push_back(locate(error)); }
+
+    /** All that warn() has got, in this order. */
+    const std::vector<std::string> &warnings() const { return notes; }
+
+    /**
+     * The entries, by "Section/Entry", that objects declare which `build` makes and drops. Before any object of the run
+     * is made.
+     */
+    static std::vector<std::string> declared_by(const std::function<void()> &build);
+
     /** Checks every entry against what the objects declared, and sets their members. */
     void parse();
 
@@ -68,9 +100,15 @@ namespace Talus
     [[noreturn]] void reject_unknown(const std::string &key, const Setting &setting) const;
     const Setting    *find(const std::string &section, const std::string &entry) const;
 
+    /** Whether an entry is of an object that the file lists and `--set` does not. */
+    bool is_left_out(const std::string &key) const;
+
     std::map<std::string, Setting>     settings;   // by "Section/Subsection/Entry"
     std::map<std::string, std::string> sections;   // where each was opened
     std::vector<std::string>           open_files; // being scanned, each included by the one before
+    std::map<std::string, std::string> names_of_file; // `Names` that `--set` has replaced, by section
+    std::map<std::string, std::string> idle;       // entries that nothing reads, and why that may surprise
+    std::vector<std::string>           notes;
     std::string                        file_name;
   };
 

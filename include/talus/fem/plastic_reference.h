@@ -31,7 +31,7 @@ namespace Talus
    * any other. It knows no particle and no material of a run. Every call is collective.
    *
    * Throws InputError (entries, a body that is free to move, an unknown condition) and RunError (no equilibrium is
-   * found). Theory: doc/fem_reference.md. Test: tests/fem/.
+   * found within the `limits`). Theory: doc/fem_reference.md. Test: tests/fem/.
    */
   template <int dim>
   class PlasticReference : public dealii::ParameterAcceptor
@@ -60,6 +60,16 @@ namespace Talus
 
     /** Norm of the forces out of balance over that of all cell forces, after each iteration of the last step. */
     const std::vector<double> &imbalances() const { return imbalance_history; }
+
+    /** How long Newton's method is tried. */
+    struct Limits
+    {
+      unsigned int iterations     = 25;  // in one step
+      unsigned int halvings       = 10;  // of a load step, one after the other
+      unsigned int all_iterations = 500; // in one load step with all that it was halved into
+      unsigned int all_halvings   = 40;
+    };
+    Limits limits;
 
     /** Iterations of all steps, and how often a step was halved. */
     unsigned int n_iterations() const { return iterations; }

@@ -77,7 +77,7 @@ namespace Talus
     /** Owned nodes on the faces of the box with number `boundary_id` (2 d: lower, 2 d + 1: upper face of axis d). */
     std::vector<unsigned int> nodes_on_boundary(const unsigned int boundary_id) const;
 
-    /** Owned nodes in the closed box. */
+    /** Owned nodes in the closed box; see Lattice::is_between(). */
     std::vector<unsigned int> nodes_in_box(const dealii::Point<dim> &lower, const dealii::Point<dim> &upper) const;
 
     const CellIterator &owned_cell(const unsigned int active_cell_index) const { return cells[active_cell_index]; }

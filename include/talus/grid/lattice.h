@@ -72,6 +72,13 @@ namespace Talus
       return coordinate >= 0 && coordinate <= n_cells[d];
     }
 
+    /** Whether x lies in an interval that a user wrote: its ends have a tolerance of 1e-6 spacings. */
+    bool is_between(const double x, const double lower, const double upper, const unsigned int d) const
+    {
+      const double tolerance = std::max(1e-6 * h[d], face_tolerance(d));
+      return x >= lower - tolerance && x <= upper + tolerance;
+    }
+
     /** How far beyond a face a position is still on it, by round-off: 1e-9 spacings, or the last 3 bits of it [length]. */
     double face_tolerance(const unsigned int d) const
     {

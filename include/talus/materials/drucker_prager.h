@@ -41,6 +41,10 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    std::vector<EntryError> doubts() const override;
+
+    bool bears_tension() const override { return cohesion > 0; }
+
     double alpha() const { return plane_strain_slope(friction_angle); } // [1]
     double beta() const { return plane_strain_slope(dilatancy_angle); } // [1]
     double kappa() const;                                               // [stress]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/exceptions.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -70,11 +72,17 @@ namespace Talus
      */
     virtual std::string refusal(const std::array<double, 6> & /* initial_stress */) const { return ""; }
 
+    /** What is possible and hardly meant among its entries: warnings before the first step. */
+    virtual std::vector<EntryError> doubts() const { return {}; }
+
     /**
      * True for a law that asks nothing but the volume: F is then not integrated but diag(J, 1, 1) with J = density
      * V / m. det F of a particle that is stretched on and on is the difference of ever greater products.
      */
     virtual bool carries_volume_only() const { return false; }
+
+    /** False for a law whose particles part without resistance: water and dry sand. */
+    virtual bool bears_tension() const { return !carries_volume_only(); }
 
     /** A particle that has expanded beyond this volume ratio J has not stayed in one piece: the run has failed [1]. */
     virtual double largest_volume_ratio() const { return 10; }

@@ -5,6 +5,8 @@
 #include <talus/particles/shape.h>
 #include <talus/particles/working_set.h>
 
+#include <optional>
+
 namespace Talus
 {
   /** One body: its shape, its material and the state in which it starts. */
@@ -19,6 +21,24 @@ namespace Talus
     /** Writes the initial state of a particle at `x` into its properties, one for each column of `set`. */
     void initialize(const dealii::Point<dim> &x, const double volume, const Material &material,
                     const WorkingSet<dim> &set, std::vector<double> &properties) const;
+
+    /** An initial stress that grows with the depth below a surface. */
+    struct Layer
+    {
+      double       unit_weight;   // [force/volume]
+      double       surface_level; // [length]
+      unsigned int axis;
+    };
+
+    /** That of this body, if it has one. */
+    std::optional<Layer> layer() const
+    {
+      if (!is_layered())
+        return {};
+      return Layer{unit_weight, surface_level, static_cast<unsigned int>(vertical_axis[0] - 'x')};
+    }
+
+    bool has_initial_stress() const { return stress_kind != "none"; }
 
     std::string                 name;
     unsigned int                material; // index

@@ -45,6 +45,9 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
     void add_fields(WorkingSet<dim> &particles);
 
+    /** What it adds to the particles. */
+    static std::vector<std::string> field_names() { return {"mean stress", "reference stress", "stress error"}; }
+
     /** Adds a step that ended at `time` to the averages. */
     void accumulate(const double time, const double dt, const double end_time, const Boundary<dim> &boundary,
                     WorkingSet<dim> &particles);

@@ -28,6 +28,9 @@ namespace Talus
     /** Checks and creates the directory; EntryError on all ranks. Collective. */
     void open(MPI_Comm communicator);
 
+    /** Drops fields from those that the file chooses, of an object that is switched off; before check(). */
+    void leave_out(const std::vector<std::string> &names) { Talus::leave_out(names, field_names); }
+
     /** Finds the chosen fields; an unknown name is an EntryError. Once, before the first write(). */
     void check(const WorkingSet<dim> &particles);
 

@@ -39,6 +39,9 @@ namespace Talus
                                                          const std::vector<std::string> &names,
                                                          const std::string &section, const std::string &entry);
 
+  /** Takes `names` out of `chosen`. */
+  void leave_out(const std::vector<std::string> &names, std::vector<std::string> &chosen);
+
   /** Number of components of all fields together. */
   template <int dim>
   unsigned int n_components(const std::vector<ParticleField<dim>> &fields)

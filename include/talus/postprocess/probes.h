@@ -54,6 +54,9 @@ namespace Talus
      */
     void open(const std::string &directory, const WorkingSet<dim> &particles, const Grid<dim> &grid);
 
+    /** Drops fields from those that the file chooses, of an object that is switched off; before open(). */
+    void leave_out(const std::vector<std::string> &names) { Talus::leave_out(names, field_names); }
+
     /** Appends a row. Collective. */
     void write(const double time, const WorkingSet<dim> &particles);
 

@@ -32,6 +32,9 @@ namespace Talus
     /** To be called after every step; costs the reading of a clock. */
     void update(const double time, const unsigned int step);
 
+    /** Ends an open line, so that what is written next stands on its own. */
+    void end_line();
+
     /** The last line, with the time that the run took. */
     void finish(const double time, const unsigned int step);
 

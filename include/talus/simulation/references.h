@@ -14,8 +14,17 @@ namespace Talus
   class References
   {
   public:
+    /**
+     * Lets the entries of references that are switched off stand in the file, misspelt ones excepted. Before any other
+     * object is made.
+     */
+    static void allow_idle_entries(Parameters &parameters);
+
     /** Adds what it keeps on the particles. */
     References(Parameters &parameters, Model<dim> &model, const Communicator &communicator);
+
+    /** Particle fields that a reference which is switched off would have. */
+    std::vector<std::string> idle_fields() const;
 
     /** Sets the initial state that a manufactured solution has. */
     void start(Model<dim> &model);
@@ -40,6 +49,7 @@ namespace Talus
     std::unique_ptr<ReferenceMotion<dim>> motion; // of the dynamic one
 
     std::unique_ptr<Verification<dim>> verification;
+    bool                               is_switched_off = false; // the reference, which the file describes
     std::vector<double>                errors; // against the solution, in the order of their columns
   };
 } // namespace Talus

@@ -6,9 +6,11 @@
 #include <talus/postprocess/probes.h>
 #include <talus/postprocess/progress.h>
 #include <talus/postprocess/statistics.h>
+#include <talus/simulation/checks.h>
 #include <talus/simulation/references.h>
 #include <talus/simulation/resources.h>
 #include <talus/steppers/energy_watch.h>
+#include <talus/steppers/fracture_watch.h>
 #include <talus/steppers/stepper.h>
 
 #include <fstream>
@@ -34,6 +36,7 @@ namespace Talus
     void fill_table();
     void advance();
     void check();
+    void look_for_fracture();
     void postprocess();
     void finish();
 
@@ -41,10 +44,11 @@ namespace Talus
 
     /** Writes to the terminal and the log; rank 0. */
     void        say(const std::string &text);
+    void        say_warning(const std::string &text);
     std::string summary() const;
 
     const Communicator communicator;
-    const Parameters  &parameters;
+    Parameters        &parameters;
     Resources          resources;
     Timing             timing;
     unsigned int       output_section, reference_section; // of it
@@ -53,6 +57,7 @@ namespace Talus
     Model<dim>                    model;
     std::unique_ptr<Stepper<dim>> stepper;
     EnergyWatch<dim>              energy;
+    FractureWatch<dim>            fracture;
 
     Output<dim>               output;
     Probes<dim>               probes;

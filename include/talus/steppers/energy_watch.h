@@ -29,7 +29,7 @@ namespace Talus
     void check(Model<dim> &model, const Report &report, const Moment &moment);
 
     /** The same of kinetic and elastic energy; names the particle that holds most of it. Collective. */
-    void check_total(Model<dim> &model, const Report &report, const double strain_energy, const Moment &moment) const;
+    void check_total(Model<dim> &model, const Report &report, const double strain_energy, const Moment &moment);
 
     /** Kinetic and strain energy beyond what was there or was put in; negative is what the scheme has lost [energy]. */
     double residual(const double kinetic_energy, const double strain_energy) const
@@ -49,13 +49,13 @@ namespace Talus
 
   private:
     /** Throws when `energy`, called `name`, is too large; then asks `culprit` for the particle. */
-    void compare(const std::string &name, const double energy, const Moment &moment,
-                 const std::function<std::string()> &culprit) const;
+    void compare(const Model<dim> &model, const std::string &name, const double energy, const Moment &moment,
+                 const std::function<std::string()> &culprit);
 
     double body_force_work = 0; // [energy]
     double condition_work  = 0; // [energy]
     double traction_work   = 0; // [energy]
     double damping_energy  = 0; // taken by local damping [energy]
-    double initial_energy = 0, floor = 0;
+    double initial_energy = 0, most_available = 0, floor = 0;
   };
 } // namespace Talus

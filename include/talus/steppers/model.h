@@ -68,6 +68,9 @@ namespace Talus
     void build_bodies(Parameters &parameters);
     void build_conditions(Parameters &parameters);
 
+    /** Throws EntryError where the particles need more memory than there is, and says how much of it they need. Collective. */
+    void check_memory() const;
+
     std::string acceleration_text;
   };
 } // namespace Talus

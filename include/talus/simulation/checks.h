@@ -1,0 +1,57 @@
+#pragma once
+
+#include <talus/core/parameters.h>
+#include <talus/steppers/model.h>
+
+namespace Talus
+{
+  /**
+   * Looks before the first step for what can be computed but is hardly meant: initial stresses that the weight does not
+   * balance, bodies of few cells, conditions that never act, a body under gravity with nothing below it. What may be
+   * meant becomes a warning of `parameters`, with numbers and the entry; what cannot be meant an EntryError, on all
+   * ranks. The model is created, and its particles are where they begin. Test: tests/inputs.
+   */
+  template <int dim>
+  class Checks
+  {
+  public:
+    Checks(Parameters &parameters, Model<dim> &model, const double end_time);
+
+    /** All of them; `step_size` is that of the first step, `signal_speed` the greatest c_p + |v_p|. Collective. */
+    void run(const double step_size, const double signal_speed, const unsigned int max_steps);
+
+  private:
+    /** What the particles of a body say of it. */
+    struct Extent
+    {
+      std::uint64_t      n = 0, n_alone = 0; // particles; of them those with a cell of their own
+      dealii::Point<dim> lower, upper;       // their corners [length]
+    };
+
+    void find_extents();
+
+    // Bodies and materials
+    void check_sizes();
+    void check_layers();
+    void check_yield();
+    void check_materials();
+    void check_idle_entries();
+
+    // Conditions
+    void check_intervals();
+    void check_edges();
+    void check_floor();
+
+    void check_steps(const double step_size, const double signal_speed, const unsigned int max_steps);
+
+    void warn(const std::string &section, const std::string &entry, const std::string &message)
+    {
+      parameters.warn(EntryError(section, entry, message));
+    }
+
+    Parameters         &parameters;
+    Model<dim>         &model;
+    const double        end_time;
+    std::vector<Extent> extents;
+  };
+} // namespace Talus

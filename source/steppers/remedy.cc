@@ -1,0 +1,89 @@
+#include <talus/steppers/remedy.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What the file, or the default, says of an entry. */
+    std::string chosen(const std::string &section, const std::string &entry)
+    {
+      auto &prm = ParameterAcceptor::prm;
+      prm.enter_subsection(section);
+      const std::string value = prm.get(entry);
+      prm.leave_subsection();
+      return value;
+    }
+
+    std::string smaller_steps()
+    {
+      return std::strtod(chosen("Run", "Step size").c_str(), nullptr) > 0 ?
+               "a smaller 'Step size', or 0 for steps by the Courant number" :
+               "";
+    }
+  } // namespace
+
+  template <int dim>
+  std::string remedy_of_instability(const Model<dim> &model)
+  {
+    const std::string fixed = smaller_steps();
+    std::string       text  = fixed.empty() ? "Lower the Courant number" : "Take " + fixed;
+    const auto        form  = model.kernel->lattice_form();
+    if (form && std::holds_alternative<LinearFunction>(form->function))
+      return text + ", or take a B-spline: linear kernels are unstable where particles pass the nodes.";
+    const std::string treatment = form ? chosen("Kernel", "Boundary treatment") : "";
+    if (treatment == "none" || treatment == "Steffen")
+      text += ", or correct the kernels near the boundary: 'Boundary treatment = WLS'";
+    return text + ".";
+  }
+
+  template <int dim>
+  std::string remedy_of_exit(const Model<dim> &model, const Tensor<1, dim> &x)
+  {
+    unsigned int face = 2 * dim;
+    double       most = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (const double beyond : {model.grid.lower[d] - x[d], x[d] - model.grid.upper[d]})
+        if (beyond > most)
+        {
+          most = beyond;
+          face = 2 * d + (x[d] > model.grid.upper[d]);
+        }
+    if (face == 2 * dim) // not a number
+      return remedy_of_instability(model);
+
+    const auto         of_face = model.grid.nodes_on_boundary(face);
+    std::vector<bool>  is_held(model.grid.fields.n_owned(), false);
+    for (const auto &condition : model.boundary.conditions)
+      for (const auto &list : condition->owned_nodes())
+        for (const unsigned int i : list)
+          is_held[i] = true;
+    // Edges of the face are those of others as well, and have their conditions.
+    unsigned int n_held = 0;
+    for (const unsigned int i : of_face)
+    {
+      bool is_edge = false;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int index = model.grid.node_index[i][d];
+        is_edge         = is_edge || (d != face / 2 && (index == 0 || index == model.grid.lattice.n_cells[d]));
+      }
+      n_held += is_held[i] && !is_edge;
+    }
+    const std::string name = std::string(1, "xyz"[face / 2]) + (face % 2 == 0 ? "-" : "+");
+    if (Utilities::MPI::sum(n_held, model.grid.communicator) == 0)
+      return "The face " + name + " has no condition: give it one with 'Boundary ids = " + std::to_string(face) +
+             "'. Enlarge the grid where material is to fly on.";
+    const std::string fixed = smaller_steps();
+    return "The face " + name + " has a condition, but not everywhere, or not now, or the particle was too fast: enlarge " +
+           "the grid, or " + (fixed.empty() ? "lower the Courant number." : "take " + fixed + ".");
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template std::string remedy_of_instability(const Model<dim> &);                                                      \
+  template std::string remedy_of_exit(const Model<dim> &, const Tensor<1, dim> &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
