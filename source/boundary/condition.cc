@@ -72,17 +72,17 @@ namespace Talus
   {
     all_nodes.clear();
     for (const unsigned int id : boundary_ids)
-      all_nodes.push_back(grid.nodes_on_boundary(id));
+      all_nodes.push_back(grid.boundary(std::to_string(id)).nodes);
     for (unsigned int s = 0; s < positions.size(); ++s)
     {
       const unsigned int face = faces[boundary_ids.size() + s], axis = face / 2;
       // A node on the plane belongs to it, whatever round-off makes of its place.
-      const double margin = 1e-9 * grid.lattice.h[axis];
+      const double margin = 1e-9 * grid.spacing[axis];
       Point<dim>   a = grid.lower, b = grid.upper;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        a[d] -= grid.lattice.h[d];
-        b[d] += grid.lattice.h[d];
+        a[d] -= grid.spacing[d];
+        b[d] += grid.spacing[d];
       }
       (face % 2 == 0 ? b : a)[axis] = positions[s] + (face % 2 == 0 ? margin : -margin);
       all_nodes.push_back(grid.nodes_in_box(a, b));
@@ -158,13 +158,16 @@ namespace Talus
     if (acting == marked)
       return;
     marked = acting;
+    const auto box = dynamic_cast<BoxGrid<dim> *>(&grid);
+    if (box == nullptr)
+      return; // meshes have no treatment that would ask
     // Where something else acts as well a wall does not slip, whatever the order of the list.
     std::vector<typename Lattice<dim>::Faces> faces(grid.fields.n_owned(), 0);
     for (const bool is_slip : {true, false})
       for (unsigned int c = 0; c < conditions.size(); ++c)
         if (acting[c] && conditions[c]->is_slip() == is_slip)
           conditions[c]->mark_slip(faces);
-    grid.set_slip_walls(faces, n);
+    box->set_slip_walls(faces, n);
   }
 
   template <int dim>

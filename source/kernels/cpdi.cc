@@ -1,6 +1,6 @@
 #include <talus/core/registry.h>
 #include <talus/core/transpose.h>
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/particles/corners.h>
 
@@ -32,7 +32,7 @@ namespace Talus
       }
 
       void  add_fields(WorkingSet<dim> &particles) override { half_edges = Corners<dim>::add_field(particles); }
-      void  attach(const Grid<dim> &grid) override { lattice = &grid.lattice; }
+      void  attach(const Grid<dim> &grid) override { lattice = &box_grid(grid, "/Kernel", "Type").lattice; }
       Reach reach() const override { return {2, 0., /* at_corners = */ true, n_layers}; }
 
       void evaluate(const WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end,

@@ -19,42 +19,27 @@ namespace Talus
     void visit_cell(const Grid<dim> &grid, const Body<dim> &body, const typename Grid<dim>::CellIterator &cell,
                     const Visitor &visitor)
     {
-      const auto index = grid.lattice.cell_index(cell->center());
+      const auto number = grid.cell_number(cell->center());
       body.shape->visit(cell->bounding_box(), [&](const unsigned int i, Point<dim> x, double volume) {
         if (body.is_clipped)
-          volume *= grid.lattice.share_inside(x);
-        if (volume > 0 && grid.lattice.cell_index(x) == index)
+          volume *= grid.share_inside(x);
+        if (volume > 0 && grid.cell_number(x) == number)
           visitor(i, x, volume);
       });
     }
 
-    /** Throws unless all points of the body lie in the grid. Looks beyond the grid's faces only; all ranks alike. */
+    /** Throws unless all points of the body lie in the grid. Collective. */
     template <int dim>
     void check_inside(const Grid<dim> &grid, const Body<dim> &body)
     {
-      constexpr double far  = 1e300;
-      const auto       look = [&](const unsigned int, const Point<dim> &x, const double) {
-        bool is_inside = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          is_inside = is_inside && grid.lattice.is_inside(grid.lattice.coordinate(x[d], d), d);
-        if (!is_inside)
-          throw EntryError(
-                  body.get_section_name(), body.shape->position_entry(),
-                  "the body's point " + to_text<dim>(x) + " lies outside the grid, which reaches from " +
-                    to_text<dim>(grid.lower) + " to " + to_text<dim>(grid.upper) +
-                    ", upper faces excluded. Move the body, or enlarge the grid; 'Clip to grid = true' leaves out what lies outside.");
-      };
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        Point<dim> lower, upper;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = -far;
-          upper[d] = far;
-        }
-        (face % 2 == 0 ? upper : lower)[face / 2] = (face % 2 == 0 ? grid.lower : grid.upper)[face / 2];
-        body.shape->visit(BoundingBox<dim>({lower, upper}), look);
-      }
+      const auto outside = grid.find_outside([&](const auto &box, const auto &look) {
+        body.shape->visit(box, [&](auto, const Point<dim> &x, auto) { look(x); });
+      });
+      if (outside)
+        throw EntryError(
+          body.get_section_name(), body.shape->position_entry(),
+          "the body's point " + to_text<dim>(*outside) + " lies outside the grid, " + grid.extent() +
+            ". Move the body, or enlarge the grid; 'Clip to grid = true' leaves out what lies outside.");
     }
 
     /** The home's particles were many small pieces, which the C library would keep for later. */
@@ -81,8 +66,8 @@ namespace Talus
                               const std::vector<std::unique_ptr<Material>> &materials)
   {
     this->grid = &grid;
-    mapping    = std::make_unique<MappingCartesian<dim>>();
-    home = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, *mapping, this->n_columns());
+    home =
+      std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, grid.mapping, this->n_columns());
 
     // A rank's share and some more: what is reserved too much is never touched, and growing step by step costs time.
     double n_indices = 0;
@@ -114,9 +99,9 @@ namespace Talus
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {
-            const Point<dim> location = grid.lattice.inside_cell(x);
+            const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
-            home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,
+            home->insert_particle(location, grid.mapping.transform_real_to_unit_cell(cell, location), body.first_id + i,
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];

@@ -10,7 +10,7 @@ namespace Talus
 
   template <int dim>
   Model<dim>::Model(Parameters &parameters, const Communicator &communicator) :
-    ParameterAcceptor("/Run"), grid("/Grid", communicator),
+    ParameterAcceptor("/Run"), own_grid(std::make_unique<BoxGrid<dim>>("/Grid", communicator)), grid(*own_grid),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -84,7 +84,7 @@ namespace Talus
         throw EntryError("/Kernel", "Type",
                          "the domains of '" + body->name + "' would follow its deformation gradient, and a fluid has "
                          "none. Take a B-spline.");
-      body->shape->create(grid.lattice.h);
+      body->shape->create(grid.spacing);
     }
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
@@ -120,10 +120,7 @@ namespace Talus
       return value;
     };
     std::ostringstream text;
-    text << "  grid       ";
-    for (unsigned int d = 0; d < dim; ++d)
-      text << (d == 0 ? "" : " x ") << grid.lattice.n_cells[d];
-    text << " cells, " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
+    text << "  grid       " << grid.summary() << ", " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
          << bodies.size()
          << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
          << "  kernel     " << chosen("Kernel", "Type")

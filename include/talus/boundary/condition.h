@@ -3,6 +3,7 @@
 #include <talus/boundary/damping.h>
 #include <talus/core/reduction.h>
 #include <talus/core/table.h>
+#include <talus/grid/box_grid.h>
 
 namespace Talus
 {

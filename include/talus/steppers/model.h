@@ -35,7 +35,8 @@ namespace Talus
     /** Registers what the parts know of the last step, for all ranks. */
     void add_to(Reduction &reduction);
 
-    Grid<dim>                               grid;
+    std::unique_ptr<Grid<dim>>              own_grid;
+    Grid<dim>                              &grid;
     std::unique_ptr<Kernel<dim>>            kernel;
     std::unique_ptr<Transfer<dim>>          transfer;
     std::vector<std::string>                material_names;
