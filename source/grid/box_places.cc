@@ -135,7 +135,7 @@ namespace Talus
     std::vector<char> is_reached(fields.n_local());
     for (unsigned int i = 0; i < fields.n_local(); ++i)
       is_reached[i] = reached[lattice.table_index(node_index[i])];
-    this->activate_nodes(is_reached);
+    this->activate_nodes(std::move(is_reached));
   }
 
   template <int dim>

@@ -30,17 +30,24 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::activate_nodes(const std::vector<char> &is_reached)
+  void Grid<dim>::spread(std::vector<char> &of_nodes)
   {
     // Tell the owners what reaches into their nodes, and those who have copies what the owners know.
     fields.clear();
     for (unsigned int i = 0; i < fields.n_local(); ++i)
-      fields[i][0] = is_reached[i];
+      fields[i][0] = of_nodes[i];
     fields.add_copies_to_owners();
     fields.update_copies();
     for (unsigned int i = 0; i < fields.n_local(); ++i)
-      is_active[i] = fields[i][0] > 0;
+      of_nodes[i] = fields[i][0] > 0;
     fields.clear();
+  }
+
+  template <int dim>
+  void Grid<dim>::activate_nodes(std::vector<char> is_reached)
+  {
+    spread(is_reached);
+    is_active.assign(is_reached.begin(), is_reached.end());
     collect_active_nodes();
   }
 

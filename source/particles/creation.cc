@@ -113,6 +113,9 @@ namespace Talus
           });
     }
     load(n_home);
+    if (this->keeps_places)
+      for (unsigned int p = 0; p < this->size(); ++p)
+        this->place[p] = grid.cell_number(Point<dim>(this->vector(this->position, p)));
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
     for (unsigned int b = 0; b < bodies.size(); ++b)

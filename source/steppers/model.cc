@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/grid/simplex_grid.h>
 #include <talus/steppers/model.h>
 
 #include <limits>
@@ -8,9 +9,22 @@ namespace Talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <int dim>
+    std::unique_ptr<Grid<dim>> make_grid(Parameters &parameters, const Communicator &communicator)
+    {
+      const std::string section = "/Grid";
+      if (parameters.choose_from(section, "Type", "box", "box|mesh",
+                                 "box: equal cells; mesh: triangles or tetrahedra.") == "box")
+        return std::make_unique<BoxGrid<dim>>(section, communicator);
+      return std::make_unique<SimplexGrid<dim>>(section, communicator);
+    }
+  } // namespace
+
   template <int dim>
   Model<dim>::Model(Parameters &parameters, const Communicator &communicator) :
-    ParameterAcceptor("/Run"), own_grid(std::make_unique<BoxGrid<dim>>("/Grid", communicator)), grid(*own_grid),
+    ParameterAcceptor("/Run"), own_grid(make_grid<dim>(parameters, communicator)), grid(*own_grid),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -88,6 +102,7 @@ namespace Talus
     }
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
+    kernel->attach(grid);
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
     if (!bodies.empty())

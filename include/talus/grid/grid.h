@@ -173,8 +173,11 @@ namespace Talus
          dealii::parallel::TriangulationBase<dim> &triangulation, dealii::DoFHandler<dim> &dof_handler,
          const dealii::Mapping<dim> &mapping);
 
+    /** Sets marks of local nodes that any rank has set; ends with all fields zero. Collective. */
+    void spread(std::vector<char> &of_nodes);
+
     /** Makes active the nodes on which `is_reached`, of each local node, holds on any rank. Collective. */
-    void activate_nodes(const std::vector<char> &is_reached);
+    void activate_nodes(std::vector<char> is_reached);
 
     void activate_all();
 
