@@ -88,8 +88,8 @@ namespace Talus
     return mesh;
   }
 
-  template MeshInput<2> generate_mesh(const std::array<double, 2> &, const std::array<double, 2> &,
+  template MeshInput<2> generate_mesh<2>(const std::array<double, 2> &, const std::array<double, 2> &,
                                       const std::array<unsigned int, 2> &, const double);
-  template MeshInput<3> generate_mesh(const std::array<double, 3> &, const std::array<double, 3> &,
+  template MeshInput<3> generate_mesh<3>(const std::array<double, 3> &, const std::array<double, 3> &,
                                       const std::array<unsigned int, 3> &, const double);
 } // namespace Talus

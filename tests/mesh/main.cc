@@ -14,6 +14,10 @@ DECLARE(location)
 DECLARE(many_particles)
 DECLARE(parts)
 DECLARE(moving_between_parts)
+DECLARE(generated_mesh)
+DECLARE(particles_on_a_mesh)
+DECLARE(transfers_on_a_mesh)
+void mesh_grid_errors();
 void parts_errors();
 void many_moves_between_parts();
 void wrong_meshes();
@@ -49,6 +53,13 @@ int main(int argc, char **argv)
                     {"moving between parts 2D", moving_between_parts<2>},
                     {"moving between parts 3D", moving_between_parts<3>},
                     {"parts: errors", parts_errors},
+                    {"generated mesh 2D", generated_mesh<2>},
+                    {"generated mesh 3D", generated_mesh<3>},
+                    {"particles on a mesh 2D", particles_on_a_mesh<2>},
+                    {"particles on a mesh 3D", particles_on_a_mesh<3>},
+                    {"transfers on a mesh 2D", transfers_on_a_mesh<2>},
+                    {"transfers on a mesh 3D", transfers_on_a_mesh<3>},
+                    {"mesh grid: errors", mesh_grid_errors},
                     {"long: many particles 3D", many_particles<3>},
                     {"long: many moves between parts 3D", many_moves_between_parts}});
 }
