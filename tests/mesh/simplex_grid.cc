@@ -194,7 +194,7 @@ void transfers_on_a_mesh()
         raise(error, run.grid.fields[i][Fields::velocity] - v0);
       }
     check(kernel + ": velocity of the nodes", max(error), 1e-9);
-    const auto before = run.particles;
+    const WorkingSet<dim> before = run.particles;
     run.transfer->grid_to_particle(run.grid, *run.kernel, 0., run.particles, 0, run.particles.size());
     error = 0;
     for (unsigned int p = 0; p < run.particles.size(); ++p)
