@@ -1,4 +1,3 @@
-#include "../setup.h"
 #include "meshes.h"
 
 #include <talus/grid/simplex_grid.h>
@@ -7,10 +6,8 @@
 
 using namespace Talus;
 
-namespace
+namespace Test
 {
-  using namespace Test;
-
   /** A run on a mesh before its first step. */
   template <int dim>
   struct OnMesh : Text, Model<dim>
@@ -43,26 +40,28 @@ namespace
   };
 
   template <int dim>
-  std::string box_of_simplices()
+  inline std::string box_of_simplices()
   {
     return section("Grid", set("Type", "mesh") + set("Cells", coordinates<dim>({{4, 3, 2}})) +
                              set("Upper corner", coordinates<dim>({{2, 1.5, 1}})));
   }
 
   template <int dim>
-  std::string gmsh_grid()
+  inline std::string gmsh_grid()
   {
     return section("Grid", set("Type", "mesh") + set("File", data(dim == 2 ? "plate.msh" : "block.msh")) +
                              set("Spacing", "0.1"));
   }
 
   template <int dim>
-  std::string box_body(const double from, const double to, const std::string &more = "")
+  inline std::string box_body(const double from, const double to, const std::string &more = "")
   {
     return body_text(set("Lower corner", coordinates<dim>({{from, from, from}})) +
                      set("Upper corner", coordinates<dim>({{to, to, to}})) + more);
   }
-} // namespace
+} // namespace Test
+
+using namespace Test;
 
 /** A box cut into simplices: cells, volume, and its faces with their normals, on all ranks together. */
 template <int dim>
@@ -131,8 +130,7 @@ void particles_on_a_mesh()
       check_true(name + ": nobody is outside", run.particles.outside == run.particles.none);
       run.particles.migrate();
       run.particles.relocate();
-      if (run.particles.needs_synchronise)
-        check_true(name + ": at home after migration", false);
+      check_true(name + ": at home after migration", !run.particles.needs_synchronise);
       if (max(run.particles.needs_activation) > 0)
         run.grid.activate(run.particles.used_places());
       run.particles.relocate();
