@@ -15,13 +15,13 @@ namespace
   struct Kernel
   {
     std::string                                                                                  name;
-    std::function<void(const unsigned int cell, const Coordinates<dim> &x, NodeList<dim> &list)> evaluate;
+    std::function<void(const unsigned int cell, const Coordinates<dim> &x, Stencil<dim> &list)> evaluate;
   };
 
   template <class Weight, int dim>
   Kernel<dim> umls_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
-    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
+    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
               umls<Weight>(mesh, c, x.data(), options, list);
             }};
   }
@@ -30,7 +30,7 @@ namespace
   Kernel<dim> c1_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
     return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
-                                                                  NodeList<dim> &list) {
+                                                                  Stencil<dim> &list) {
               c1_umls<Weight>(mesh, feet[c], c, x.data(), options, list);
             }};
   }
@@ -38,7 +38,7 @@ namespace
   template <int dim>
   Kernel<dim> p1_kernel(const Mesh<dim> &mesh)
   {
-    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
+    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
               p1(mesh, c, x.data(), list);
             }};
   }
@@ -69,15 +69,15 @@ namespace
     Values(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int cell, const Coordinates<dim> &x) :
       weight(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
     {
-      static NodeList<dim> list;
+      static Stencil<dim> list;
       kernel.evaluate(cell, x, list);
-      for (unsigned int k = 0; k < list.padded_size; ++k)
+      for (unsigned int k = 0; k < (list.size + 7) / 8 * 8; ++k)
       {
-        weight[list.node[k]] += list.weight[k];
+        weight[list.place[k]] += list.weight[k];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          gradient[list.node[k]][d] += list.gradient[d][k];
-          raise(offset_error, list.offset[d][k] - (mesh.position[list.node[k]][d] - x[d]));
+          gradient[list.place[k]][d] += list.gradient[d][k];
+          raise(offset_error, list.offset[d][k] - (mesh.position[list.place[k]][d] - x[d]));
         }
       }
     }

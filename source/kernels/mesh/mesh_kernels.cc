@@ -5,8 +5,6 @@
 #include <talus/kernels/mesh/p1.h>
 #include <talus/kernels/mesh/umls.h>
 
-#include <algorithm>
-
 namespace Talus
 {
   namespace
@@ -35,8 +33,9 @@ namespace Talus
           double x_p[dim];
           for (unsigned int d = 0; d < dim; ++d)
             x_p[d] = x[d][p];
-          find(particles.place[p], x_p, list);
-          copy(stencils[p - begin]);
+          Stencil<dim> &stencil = stencils[p - begin];
+          stencil.is_at_slip_wall.fill(false);
+          find(particles.place[p], x_p, stencil);
         }
       }
 
@@ -44,26 +43,9 @@ namespace Talus
       /** Makes what hangs on the mesh, which may still be empty. */
       virtual void prepare() {}
 
-      virtual void find(const unsigned int cell, const double *x, NodeList<dim> &list) const = 0;
+      virtual void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const = 0;
 
       const Mesh<dim> *mesh = nullptr;
-
-    private:
-      void copy(Stencil<dim> &stencil) const
-      {
-        stencil.reserve(list.size);
-        stencil.size = list.size;
-        stencil.is_at_slip_wall.fill(false);
-        std::copy_n(list.node.begin(), list.size, stencil.place.begin());
-        std::copy_n(list.weight.begin(), list.size, stencil.weight);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          std::copy_n(list.offset[d].begin(), list.size, stencil.offset[d]);
-          std::copy_n(list.gradient[d].begin(), list.size, stencil.gradient[d]);
-        }
-      }
-
-      mutable NodeList<dim> list; // of one particle after the other
     };
 
     template <int dim>
@@ -73,9 +55,9 @@ namespace Talus
       using MeshKernel<dim>::MeshKernel;
 
     private:
-      void find(const unsigned int cell, const double *x, NodeList<dim> &list) const override
+      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
       {
-        p1(*this->mesh, cell, x, list);
+        p1(*this->mesh, cell, x, stencil);
       }
     };
 
@@ -104,12 +86,12 @@ namespace Talus
       }
 
     protected:
-      void find(const unsigned int cell, const double *x, NodeList<dim> &list) const override
+      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
       {
         if (is_cubic)
-          umls<CubicWeight>(*this->mesh, cell, x, options, list);
+          umls<CubicWeight>(*this->mesh, cell, x, options, stencil);
         else
-          umls<QuadraticWeight>(*this->mesh, cell, x, options, list);
+          umls<QuadraticWeight>(*this->mesh, cell, x, options, stencil);
       }
 
       UmlsOptions options;
@@ -129,12 +111,12 @@ namespace Talus
     private:
       void prepare() override { feet = foot_coordinates(*this->mesh); }
 
-      void find(const unsigned int cell, const double *x, NodeList<dim> &list) const override
+      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
       {
         if (this->is_cubic)
-          c1_umls<CubicWeight>(*this->mesh, feet[cell], cell, x, this->options, list);
+          c1_umls<CubicWeight>(*this->mesh, feet[cell], cell, x, this->options, stencil);
         else
-          c1_umls<QuadraticWeight>(*this->mesh, feet[cell], cell, x, this->options, list);
+          c1_umls<QuadraticWeight>(*this->mesh, feet[cell], cell, x, this->options, stencil);
       }
 
       std::vector<FootCoordinates<dim>> feet; // of each cell
