@@ -196,10 +196,7 @@ namespace Talus
     for (unsigned int list = 0; list < all_parts.size(); ++list)
       for (unsigned int k = 0; k < all_parts[list].nodes.size(); ++k)
         if (grid.is_active[all_parts[list].nodes[k]])
-        {
-          parts[list].nodes.push_back(all_parts[list].nodes[k]);
-          parts[list].normals.push_back(all_parts[list].normals[k]);
-        }
+          parts[list].add(all_parts[list].nodes[k], all_parts[list].normals[k]);
     nodes.assign(all_nodes.size(), {});
     for (unsigned int list = 0; list < all_nodes.size(); ++list)
       for (const unsigned int i : all_nodes[list])

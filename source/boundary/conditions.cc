@@ -11,21 +11,6 @@ namespace Talus
 
   namespace
   {
-    /** An orthonormal basis of what the normals span. */
-    template <int dim>
-    std::vector<Tensor<1, dim>> orthonormal(const std::vector<Tensor<1, dim>> &normals)
-    {
-      std::vector<Tensor<1, dim>> basis;
-      for (Tensor<1, dim> n : normals)
-      {
-        for (const auto &b : basis)
-          n -= (n * b) * b;
-        if (n.norm() > 1e-6)
-          basis.push_back(n / n.norm());
-      }
-      return basis;
-    }
-
     /** Velocity as a function of place and time, for some or all components. */
     template <int dim>
     class Velocity : public Condition<dim>
@@ -108,7 +93,7 @@ namespace Talus
       {
         for (const auto &part : this->parts)
           for (unsigned int k = 0; k < part.nodes.size(); ++k)
-            for (const auto &n : orthonormal(part.normals[k]))
+            for (const auto &n : part.basis[k])
               stop(part.nodes[k], n);
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {

@@ -161,9 +161,11 @@ namespace Talus
       if (number == std::to_string(id))
       {
         Tensor<1, dim> normal;
-        normal[id / 2]   = id % 2 == 0 ? -1. : 1.;
-        const auto nodes = nodes_on_boundary(id);
-        return {nodes, std::vector<std::vector<Tensor<1, dim>>>(nodes.size(), {normal})};
+        normal[id / 2] = id % 2 == 0 ? -1. : 1.;
+        BoundaryPart<dim> part;
+        for (const unsigned int node : nodes_on_boundary(id))
+          part.add(node, {normal});
+        return part;
       }
     throw InputError("The box grid has no boundary '" + number + "'. Its faces have the numbers 0 to " +
                      std::to_string(2 * dim - 1) + ".");

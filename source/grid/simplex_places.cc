@@ -222,8 +222,7 @@ namespace Talus
     {
       for (auto &sum : list)
         sum /= sum.norm();
-      part.nodes.push_back(node);
-      part.normals.push_back(list);
+      part.add(node, list);
     }
     return part;
   }
