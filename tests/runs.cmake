@@ -12,7 +12,7 @@ set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)
 set(shear ${PROJECT_SOURCE_DIR}/prm/shear.prm)
 
 # Exit status and message of wrong inputs.
-foreach(group command_line entries numbers functions bodies points surroundings diverged)
+foreach(group command_line entries numbers functions bodies points surroundings meshes diverged)
   foreach(ranks 1 2)
     talus_add_run(errors.${group}.mpirun=${ranks} ${ranks}
       ${CMAKE_CURRENT_SOURCE_DIR}/errors/run.py $<TARGET_FILE:talus> ${shear}
