@@ -103,7 +103,10 @@ void particles_on_a_mesh()
   {
     // Points lie on faces of generated cells as well; the plate of gmsh has a hole in the middle.
     OnMesh<dim> run((is_generated ? box_of_simplices<dim>() : gmsh_grid<dim>()) +
-                    box_body<dim>(is_generated ? 0. : 0.05, is_generated ? 1. : 0.25) +
+                    body_text(set("Lower corner", is_generated ? coordinates<dim>({{0.5, 0, 0}}) :
+                                                                 coordinates<dim>({{0.4, 0.05, 0.05}})) +
+                              set("Upper corner", is_generated ? coordinates<dim>({{1.5, 1, 1}}) :
+                                                                 coordinates<dim>({{0.6, 0.25, 0.25}}))) +
                     section("Kernel", set("Type", "UMLS")));
     const std::string name = is_generated ? "generated" : "gmsh";
     const double       n    = 4; // points per axis
@@ -123,7 +126,9 @@ void particles_on_a_mesh()
         {
           double      &x = run.particles.component(run.particles.position, d)[p];
           const double y = x + 0.08 * hashed_jitter(round, run.particles.id[p], d);
-          x              = is_generated ? std::min(std::max(y, 0.), 1.) : std::min(std::max(y, 0.01), 0.29);
+          const double lower = is_generated ? 0. : d == 0 ? 0.38 : 0.01;
+          const double upper = is_generated ? (d == 0 ? 2. : 1.) : d == 0 ? 0.62 : 0.29;
+          x                  = std::min(std::max(y, lower), upper);
         }
       const auto before = run.particles.id;
       run.particles.relocate();
