@@ -150,7 +150,7 @@ def draw(results, path):
     for when, target in (("T", path), ("T/4", path.parent / "vibration_quarter.png")):
         convergence.curves(target, [("bar, A = 1e-4", when, lines("bar", "0.0001", "4")),
                                     ("bar, A = .1", when, lines("bar", "0.1", "4")),
-                                    ("bar, A = .1", when, lines("bar", "0.1", "149", ("CPDI", "CPLS"))),
+                                    ("1 (dashed), 4, 9 (dotted) a cell", when, lines("bar", "0.1", "149", ("CPDI", "CPLS"))),
                                     ("square, A = .1", when, lines("square", "0.1", "4"))], "Axis-aligned vibration")
     quadrants = {(result.run.label["kind"], result.run.label["method"]): result for result in results}
     balance.draw(path.parent / "vibration_balance.png",

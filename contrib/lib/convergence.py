@@ -84,7 +84,7 @@ def curves(path, columns, title, slope=2):
     """
     Errors over the spacing, a row for each field. `columns`: (title, "T" or "T/4", {name: (spacings, errors(), style)}).
     """
-    figure, axes = plt.subplots(len(FIELDS), len(columns), figsize=(3.4 * len(columns) + 0.6, 8.2), sharex="col",
+    figure, axes = plt.subplots(len(FIELDS), len(columns), figsize=(2.6 * len(columns) + 0.8, 7.), sharex="col",
                                 squeeze=False, layout="constrained")
     for column, (name, when, lines) in enumerate(columns):
         for row, field in enumerate(FIELDS):
@@ -101,11 +101,12 @@ def curves(path, columns, title, slope=2):
                             label=f"order {slope}")
             axis.set_xticks(spacings, [f"1/{round(1 / h)}" for h in spacings])
             axis.set_xticks([], minor=True)
-            axis.set_ylabel(f"RMS error, {UNITS[field]}", fontsize=8)
             axis.tick_params(labelsize=7)
             axis.grid(alpha=0.3)
-        axes[0, column].set_title(f"{name}, {when.replace('T', 't = T', 1)}", fontsize=10)
-        axes[-1, column].set_xlabel("spacing h [m]")
+            if column == 0:
+                axis.set_ylabel(f"RMS error, {UNITS[field]}", fontsize=9)
+        axes[0, column].set_title(f"{name}, {when.replace('T', 't = T', 1)}", fontsize=9)
+        axes[-1, column].set_xlabel("spacing h [m]", fontsize=9)
     axes[0, 0].legend(fontsize=6)
     figure.suptitle(title, fontsize=11)
     figure.savefig(path, dpi=110)

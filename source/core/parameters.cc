@@ -1,12 +1,12 @@
 #include <talus/core/parameters.h>
 
 #include <talus/core/pattern_text.h>
+#include <talus/core/text_file.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <numeric>
 #include <sstream>
 
@@ -90,6 +90,21 @@ namespace Talus
       return best.empty() ? "" : " Did you mean '" + best + "'?";
     }
 
+    /** The text of a file; `where` begins the message of one that cannot be read or is empty. */
+    std::string read(const std::string &file_name, const std::string &where, const std::string &purpose)
+    {
+      TextFile    file(file_name, purpose);
+      std::string text;
+      for (const auto &line : file.lines)
+        text += line + '\n';
+      if (file.problem.empty() && text.find_first_not_of(" \t\n") == std::string::npos)
+        file.problem = purpose + " '" + file_name + "' is empty. Check the name.";
+      if (where.empty() && !file.problem.empty())
+        file.problem[0] = std::toupper(file.problem[0]);
+      AssertThrow(file.problem.empty(), InputError(where + file.problem));
+      return text;
+    }
+
     void enter(ParameterHandler &prm, const std::vector<std::string> &path)
     {
       for (const auto &part : path)
@@ -127,10 +142,7 @@ namespace Talus
   Parameters::Parameters(const std::string &file_name, const std::vector<std::string> &overrides) : file_name(file_name)
   {
     ParameterAcceptor::prm.clear();
-    std::ifstream in(file_name);
-    AssertThrow(in && in.peek() != std::ifstream::traits_type::eof(),
-                InputError("Cannot read the parameter file '" + file_name +
-                           "', or it is empty. Check the name and the directory talus is started in."));
+    std::istringstream       in(read(file_name, "", "the parameter file"));
     std::vector<std::string> path;
     scan(in, file_name, path);
     for (const auto &text : overrides)
@@ -189,10 +201,9 @@ namespace Talus
         const auto        slash = file_name.rfind('/');
         const std::string included =
           rest.front() == '/' || slash == std::string::npos ? rest : file_name.substr(0, slash + 1) + rest;
-        std::ifstream file(included);
-        AssertThrow(file, InputError(origin + ": cannot read the included file '" + included + "'."));
         AssertThrow(std::find(open_files.begin(), open_files.end(), included) == open_files.end(),
                     InputError(origin + ": '" + included + "' includes itself, directly or through another file."));
+        std::istringstream file(read(included, origin + ": ", "the included file"));
         scan(file, included, path);
       }
       else if (starts_with(line, "set", rest))

@@ -132,26 +132,27 @@ namespace Talus
   }
 
   template <int dim>
-  std::optional<Point<dim>> BoxGrid<dim>::find_outside(const Visit &visit) const
+  BoundingBox<dim> BoxGrid<dim>::cell_box(const CellIterator &cell) const
   {
-    // Looks beyond the grid's faces only; all ranks alike.
-    constexpr double          far = 1e300;
-    std::optional<Point<dim>> outside;
-    for (unsigned int face = 0; face < 2 * dim && !outside; ++face)
+    const auto index = lattice.cell_index(cell->center());
+    Point<dim> a, b;
+    for (unsigned int d = 0; d < dim; ++d)
     {
-      Point<dim> a, b;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        a[d] = -far;
-        b[d] = far;
-      }
-      (face % 2 == 0 ? b : a)[face / 2] = (face % 2 == 0 ? lower : upper)[face / 2];
-      visit(BoundingBox<dim>({a, b}), [&](const Point<dim> &x) {
-        if (!outside && !contains(x))
-          outside = x;
-      });
+      // Wider than round-off, so that shapes show all that may lie in the cell.
+      const double margin = 2 * lattice.face_tolerance(d) + 1e-6 * lattice.h[d];
+      a[d]                = lattice.node_position(index[d], d) - margin;
+      b[d]                = lattice.node_position(index[d] + 1, d) + margin;
     }
-    return outside;
+    return BoundingBox<dim>({a, b});
+  }
+
+  template <int dim>
+  std::vector<bool> BoxGrid<dim>::are_inside(const std::vector<Point<dim>> &points) const
+  {
+    std::vector<bool> result;
+    for (const auto &x : points)
+      result.push_back(contains(x));
+    return result;
   }
 
   template <int dim>

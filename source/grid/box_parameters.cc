@@ -98,8 +98,7 @@ namespace Talus
   template <int dim>
   std::string BoxGrid<dim>::extent() const
   {
-    return "which reaches from " + Talus::to_text<dim>(lower) + " to " + Talus::to_text<dim>(upper) +
-           ", upper faces excluded";
+    return "which reaches from " + Talus::to_text<dim>(lower) + " to " + Talus::to_text<dim>(upper);
   }
 
   template <int dim>

@@ -6,18 +6,29 @@ namespace Talus
   using namespace dealii;
 
   template <int dim>
-  void BoxGrid<dim>::look(const Points &x, const unsigned int begin, const unsigned int end, unsigned int *,
+  void BoxGrid<dim>::look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *,
                           Found &found) const
   {
     using Number = Simd<native_width>;
     bool strays  = false;
     for_each_batch(begin, end, [&](const auto batch) {
       std::array<Number, dim> coordinate;
-      auto                    is_outside = Number(1.) < Number(0.);
-      for (unsigned int d = 0; d < dim; ++d)
+      const auto              find = [&] {
+        auto is_outside = Number(1.) < Number(0.);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
+          is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
+        }
+        return is_outside;
+      };
+      auto is_outside = find();
+      if (any(is_outside))
       {
-        coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
-        is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (is_outside[l])
+            put_on_face(x, batch.p + l);
+        is_outside = find();
       }
       if (any(is_outside))
       {
@@ -49,6 +60,17 @@ namespace Talus
       }
     });
     found.strays = found.strays || strays;
+  }
+
+  template <int dim>
+  void BoxGrid<dim>::put_on_face(const Columns &x, const unsigned int p) const
+  {
+    Tensor<1, dim> x_p;
+    for (unsigned int d = 0; d < dim; ++d)
+      x_p[d] = x[d][p];
+    if (lattice.enter(x_p))
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d][p] = x_p[d];
   }
 
   template <int dim>
@@ -159,7 +181,8 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void                BoxGrid<dim>::look(const Points &, const unsigned int, const unsigned int,              \
+  template void                BoxGrid<dim>::put_on_face(const Columns &, const unsigned int) const;                   \
+  template void                BoxGrid<dim>::look(const Columns &, const unsigned int, const unsigned int,              \
                                                   unsigned int *, Found &) const;                                      \
   template void                BoxGrid<dim>::places(const Points &, const unsigned int *, const unsigned int,          \
                                                     const unsigned int, unsigned int *) const;                         \

@@ -11,8 +11,8 @@ namespace Talus
 
   namespace
   {
-    template <int dim>
-    std::array<double, dim> point(const std::array<const double *, dim> &x, const unsigned int p)
+    template <int dim, class Columns>
+    std::array<double, dim> point(const Columns &x, const unsigned int p)
     {
       std::array<double, dim> x_p;
       for (unsigned int d = 0; d < dim; ++d)
@@ -22,7 +22,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  void SimplexGrid<dim>::look(const Points &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+  void SimplexGrid<dim>::look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
                               Found &found) const
   {
     const unsigned int n_owned = this->partition.n_owned_cells;
@@ -142,38 +142,26 @@ namespace Talus
   }
 
   template <int dim>
-  std::optional<Point<dim>> SimplexGrid<dim>::find_outside(const Visit &visit) const
+  dealii::BoundingBox<dim> SimplexGrid<dim>::cell_box(const CellIterator &cell) const
   {
-    // Each rank asks for its share of the points.
-    constexpr double                        far = 1e300;
-    const unsigned int                      n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int                      rank    = Utilities::MPI::this_mpi_process(communicator);
-    std::size_t                             n       = 0;
-    std::vector<typename Mesh<dim>::Vector> points;
-    Point<dim>                              a, b;
-    for (unsigned int d = 0; d < dim; ++d)
+    dealii::BoundingBox<dim> box = cell->bounding_box();
+    box.extend(1e-6 * mesh().longest_edge);
+    return box;
+  }
+
+  template <int dim>
+  std::vector<bool> SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &points) const
+  {
+    std::vector<typename Mesh<dim>::Vector> positions;
+    for (const auto &x : points)
     {
-      a[d] = -far;
-      b[d] = far;
+      positions.emplace_back();
+      std::copy_n(x.begin_raw(), dim, positions.back().begin());
     }
-    visit(dealii::BoundingBox<dim>({a, b}), [&](const Point<dim> &x) {
-      if (n++ % n_ranks != rank)
-        return;
-      points.emplace_back();
-      std::copy_n(x.begin_raw(), dim, points.back().begin());
-    });
-    const auto          locations = this->partition.find(points);
-    std::vector<double> outside(dim, far);
-    for (unsigned int i = 0; i < points.size(); ++i)
-      if (!locations[i].is_found)
-        outside = std::min(outside, std::vector<double>(points[i].begin(), points[i].end()));
-    for (const auto &other : Utilities::MPI::all_gather(communicator, outside))
-      outside = std::min(outside, other);
-    if (outside[0] == far)
-      return {};
-    Point<dim> x;
-    std::copy(outside.begin(), outside.end(), x.begin_raw());
-    return x;
+    std::vector<bool> result;
+    for (const auto &location : this->partition.find(positions))
+      result.push_back(location.is_found);
+    return result;
   }
 
   template <int dim>
@@ -228,7 +216,7 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void SimplexGrid<dim>::look(const Points &, const unsigned int, const unsigned int, unsigned int *,         \
+  template void SimplexGrid<dim>::look(const Columns &, const unsigned int, const unsigned int, unsigned int *,         \
                                        Found &) const;                                                                 \
   template void SimplexGrid<dim>::places(const Points &, const unsigned int *, const unsigned int, const unsigned int, \
                                          unsigned int *) const;                                                        \
@@ -240,7 +228,8 @@ namespace Talus
   template void                      SimplexGrid<dim>::find_open_cells();                                              \
   template bool                      SimplexGrid<dim>::contains(const Tensor<1, dim> &) const;                         \
   template std::size_t               SimplexGrid<dim>::cell_number(const Point<dim> &) const;                          \
-  template std::optional<Point<dim>> SimplexGrid<dim>::find_outside(const Visit &) const;                              \
+  template dealii::BoundingBox<dim>  SimplexGrid<dim>::cell_box(const CellIterator &) const;                           \
+  template std::vector<bool>         SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &) const;              \
   template BoundaryPart<dim>         SimplexGrid<dim>::boundary(const std::string &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)

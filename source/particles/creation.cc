@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/particles/amount.h>
 #include <talus/particles/particles.h>
 
 #ifdef __GLIBC__
@@ -14,32 +15,17 @@ namespace Talus
 
   namespace
   {
-    /** Visits what the bodies put into a cell. */
+    /** Visits what a body puts into a cell: where a point lies is the grid's arithmetic alone. */
     template <int dim, class Visitor>
     void visit_cell(const Grid<dim> &grid, const Body<dim> &body, const typename Grid<dim>::CellIterator &cell,
                     const Visitor &visitor)
     {
       const auto number = grid.cell_number(cell->center());
-      body.shape->visit(cell->bounding_box(), [&](const unsigned int i, Point<dim> x, double volume) {
-        if (body.is_clipped)
-          volume *= grid.share_inside(x);
+      body.shape->visit(grid.cell_box(cell), [&](const std::uint64_t i, Point<dim> x, double volume) {
+        volume *= body.is_clipped ? grid.share_inside(x) : grid.enter(x);
         if (volume > 0 && grid.cell_number(x) == number)
           visitor(i, x, volume);
       });
-    }
-
-    /** Throws unless all points of the body lie in the grid. Collective. */
-    template <int dim>
-    void check_inside(const Grid<dim> &grid, const Body<dim> &body)
-    {
-      const auto outside = grid.find_outside([&](const auto &box, const auto &look) {
-        body.shape->visit(box, [&](auto, const Point<dim> &x, auto) { look(x); });
-      });
-      if (outside)
-        throw EntryError(
-          body.get_section_name(), body.shape->position_entry(),
-          "the body's point " + to_text<dim>(*outside) + " lies outside the grid, " + grid.extent() +
-            ". Move the body, or enlarge the grid; 'Clip to grid = true' leaves out what lies outside.");
     }
 
     /** The home's particles were many small pieces, which the C library would keep for later. */
@@ -80,14 +66,15 @@ namespace Talus
 
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
+    std::vector<double>        volume_created(bodies.size(), 0);
+    std::vector<Amount>        wanted;
     std::uint64_t              next_id      = 0;
     constexpr std::uint64_t    n_ids        = std::numeric_limits<types::particle_index>::max();
     double                     largest_mass = 0;
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      if (!body.is_clipped)
-        check_inside(grid, body);
+      wanted.push_back(amount_of_shape(grid, body));
       body.first_id = next_id;
       next_id += body.shape->n_indices();
       AssertThrow(next_id <= n_ids,
@@ -98,13 +85,14 @@ namespace Talus
       body_material.push_back(body.material);
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
-          visit_cell(grid, body, cell, [&](const unsigned int i, const Point<dim> &x, const double volume) {
+          visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
             const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
             home->insert_particle(location, grid.mapping.transform_real_to_unit_cell(cell, location), body.first_id + i,
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];
+            volume_created[b] += volume;
             if (++n_home == portion)
             {
               load(n_home);
@@ -118,12 +106,10 @@ namespace Talus
         this->place[p] = grid.cell_number(Point<dim>(this->vector(this->position, p)));
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
+    Utilities::MPI::sum(volume_created, grid.communicator, volume_created);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      if (n_created[b] == 0)
-        throw EntryError(
-          bodies[b]->get_section_name(), bodies[b]->shape->position_entry(),
-          "the body is empty: no particle lies in it. Check its corners, its lattice offset or its particles per cell.");
+      check_amount(*bodies[b], {n_created[b], volume_created[b]}, wanted[b]);
       n_global += n_created[b];
     }
     // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -46,6 +47,16 @@ namespace Talus
   }
 
   template <int dim>
+  void LatticeShape<dim>::add_edge_volumes()
+  {
+    edge_volumes = "sampled";
+    this->add_parameter("Edge volumes", edge_volumes,
+                        "Volumes of particles at a curved surface: 'sampled', that of the shape around them; 'whole', "
+                        "that of their box in the lattice.",
+                        this->prm, Patterns::Selection("sampled|whole"));
+  }
+
+  template <int dim>
   void LatticeShape<dim>::parse_parameters(ParameterHandler &)
   {
   }
@@ -71,7 +82,16 @@ namespace Talus
       counts[d]  = static_cast<int>(count);
       spacing[d] = length / counts[d];
       lower[d]   = corners.first[d] + offset[d] * spacing[d];
+      // About a hundred samples across the shape, and an even number in a box: none in its middle.
+      constexpr double across = dim == 2 ? 96 : 48;
+      n_samples[d] = is_curved(d) ? 2 * static_cast<int>(std::clamp(across / (2 * count), dim == 2 ? 4. : 2., 8.)) : 1;
+      if (is_curved(d) && offset[d] != 0)
+      {
+        ++counts[d];
+        lower[d] -= offset[d] > 0 ? spacing[d] : 0;
+      }
     }
+    shares.clear();
   }
 
   template <int dim>
@@ -84,27 +104,63 @@ namespace Talus
   }
 
   template <int dim>
-  std::array<Tensor<1, dim>, dim> LatticeShape<dim>::half_edges(const Point<dim> &, const double) const
+  std::array<Tensor<1, dim>, dim> LatticeShape<dim>::half_edges(const Point<dim> &, const double volume) const
   {
+    double box = 1;
+    for (const double length : spacing)
+      box *= length;
+    const double                    scale = volume == box ? 1 : std::pow(volume / box, 1. / dim);
     std::array<Tensor<1, dim>, dim> edges;
     for (unsigned int d = 0; d < dim; ++d)
-      edges[d][d] = 0.5 * spacing[d];
+      edges[d][d] = 0.5 * scale * spacing[d];
     return edges;
+  }
+
+  template <int dim>
+  bool LatticeShape<dim>::covers(const Point<dim> &x) const
+  {
+    // What round-off brings across a face from a neighbour's side is not inside.
+    constexpr double margin = 1e-6;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double c = (x[d] - lower[d]) / spacing[d];
+      if (!(c > margin && c < counts[d] - margin))
+        return false;
+    }
+    return contains(x);
   }
 
   template <int dim>
   void LatticeShape<dim>::visit(const BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const
   {
-    const auto           corners = box.get_boundary_points();
-    std::array<int, dim> begin, end;
+    const auto corners = box.get_boundary_points();
+    Index      begin, end;
     for (unsigned int d = 0; d < dim; ++d)
     {
       // A jittered point strays from its lattice point by half a spacing at most.
-      begin[d] = std::max(0., std::floor((corners.first[d] - lower[d]) / spacing[d] - 1));
-      end[d]   = std::min<double>(counts[d], std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1));
+      begin[d] = std::clamp<double>(std::floor((corners.first[d] - lower[d]) / spacing[d] - 1), 0, counts[d]);
+      end[d]   = std::clamp<double>(std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1), 0, counts[d]);
+    }
+    visit_range(begin, end, visitor);
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::visit_part(const unsigned int part, const unsigned int n_parts,
+                                     const typename Shape<dim>::Visitor &visitor) const
+  {
+    Index begin = {}, end = counts;
+    begin[dim - 1] = this->part_begin(counts[dim - 1], part, n_parts);
+    end[dim - 1]   = this->part_begin(counts[dim - 1], part + 1, n_parts);
+    visit_range(begin, end, visitor);
+  }
+
+  template <int dim>
+  void LatticeShape<dim>::visit_range(const Index &begin, const Index &end,
+                                      const typename Shape<dim>::Visitor &visitor) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
       if (begin[d] >= end[d])
         return;
-    }
     double volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       volume *= spacing[d];
@@ -120,10 +176,11 @@ namespace Talus
       }
       if (contains(x))
       {
+        const double share = edge_volumes == "whole" ? 1 : share_of_shape(k);
         if (jitter > 0)
           for (unsigned int d = 0; d < dim; ++d)
             x[d] += 0.5 * spacing[d] * jitter * hashed_jitter(seed, index, d);
-        visitor(index, x, volume);
+        visitor(index, x, share * volume);
       }
       ++k[0];
       for (unsigned int d = 0; d + 1 < dim && k[d] == end[d]; ++d)
@@ -132,6 +189,15 @@ namespace Talus
         ++k[d + 1];
       }
     }
+  }
+
+  template <int dim>
+  Point<dim> LatticeShape<dim>::position(const Index &k) const
+  {
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = lower[d] + (k[d] + 0.5) * spacing[d];
+    return x;
   }
 
   template class LatticeShape<2>;

@@ -37,7 +37,7 @@ namespace Talus
   void Particles<dim>::relocate(const unsigned int begin, const unsigned int end)
   {
     found = {};
-    grid->look(std::as_const(*this).template components<dim>(this->position), begin, end, this->place.data(), found);
+    grid->look(this->template components<dim>(this->position), begin, end, this->place.data(), found);
     for (const unsigned int p : found.outside)
       if (outside == none || this->id[p] < this->id[outside])
         outside = p;

@@ -1,9 +1,8 @@
+#include <talus/core/text_file.h>
+#include <talus/particles/point_table.h>
 #include <talus/particles/shape.h>
 
 #include <deal.II/numerics/rtree.h>
-
-#include <fstream>
-#include <sstream>
 
 namespace Talus
 {
@@ -11,7 +10,7 @@ namespace Talus
 
   namespace
   {
-    /** Particles from a text file: "x y [z] volume" in each line, # begins a comment. */
+    /** Particles from a text file: "x y [z] volume" in each line; see PointTable. */
     template <int dim>
     class PointFile : public Shape<dim>
     {
@@ -24,16 +23,23 @@ namespace Talus
 
       void create(const std::array<double, dim> &) override
       {
-        std::ifstream in(file_name);
-        if (!in)
-          throw EntryError(this->get_section_name(), "File",
-                           "cannot read '" + file_name + "'. Check the name and the directory talus is started in.");
-        std::string line;
-        for (unsigned int number = 1; std::getline(in, line); ++number)
+        const TextFile file(file_name);
+        if (!file.problem.empty())
+          throw EntryError(this->get_section_name(), "File", file.problem);
+        const std::vector<std::string> names =
+          dim == 2 ? std::vector<std::string>{"x", "y", "volume"} : std::vector<std::string>{"x", "y", "z", "volume"};
+        PointTable table(names);
+        table.read(file.lines, file_name);
+        for (std::size_t row = 0; row < table.n_rows(); ++row)
         {
-          line = line.substr(0, line.find('#'));
-          if (line.find_first_not_of(" \t\r") != std::string::npos)
-            read(line, file_name + ":" + std::to_string(number));
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = table(row, d);
+          points.push_back(x);
+          volumes.push_back(table(row, dim));
+          AssertThrow(volumes.back() > 0,
+                      InputError(file_name + ":" + std::to_string(table.line_of(row)) +
+                                 ": the volume must be positive. Correct the last number."));
         }
         if (points.empty())
           throw EntryError(this->get_section_name(), "File",
@@ -54,40 +60,19 @@ namespace Talus
           visitor(entry.second, entry.first, volumes[entry.second]);
       }
 
+      void visit_part(const unsigned int part, const unsigned int n_parts,
+                      const typename Shape<dim>::Visitor &visitor) const override
+      {
+        const std::size_t end = this->part_begin(points.size(), part + 1, n_parts);
+        for (std::size_t i = this->part_begin(points.size(), part, n_parts); i < end; ++i)
+          visitor(i, points[i], volumes[i]);
+      }
+
+      bool          is_list() const override { return true; }
       std::uint64_t n_indices() const override { return points.size(); }
       std::string  position_entry() const override { return "File"; }
 
     private:
-      void read(const std::string &line, const std::string &where)
-      {
-        std::istringstream  in(line);
-        std::vector<double> numbers;
-        std::string         word;
-        while (in >> word)
-        {
-          std::size_t end = 0;
-          try
-          {
-            numbers.push_back(std::stod(word, &end));
-          }
-          catch (const std::exception &)
-          {
-          }
-          AssertThrow(end == word.size() && std::isfinite(numbers.back()),
-                      InputError(where + ": '" + word + "' is not a finite number. Correct the line."));
-        }
-        AssertThrow(numbers.size() == dim + 1,
-                    InputError(where + ": expected " + std::to_string(dim + 1) + " numbers (" +
-                               (dim == 2 ? "x y volume" : "x y z volume") + "), found " +
-                               std::to_string(numbers.size()) + ". Complete or remove the line."));
-        AssertThrow(numbers.back() > 0, InputError(where + ": the volume must be positive. Correct the last number."));
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = numbers[d];
-        points.push_back(x);
-        volumes.push_back(numbers.back());
-      }
-
       std::string                                file_name;
       std::vector<Point<dim>>                    points;
       std::vector<double>                        volumes;

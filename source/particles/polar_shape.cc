@@ -125,6 +125,29 @@ namespace Talus
                 visit_point(i, j, k, visitor);
       }
 
+      void visit_part(const unsigned int part, const unsigned int n_parts,
+                      const typename Shape<dim>::Visitor &visitor) const override
+      {
+        const std::uint64_t end = this->part_begin(n_indices(), part + 1, n_parts);
+        for (std::uint64_t index = this->part_begin(n_indices(), part, n_parts); index < end; ++index)
+          visit_point(index % counts[0], index / counts[0] % counts[1], index / counts[0] / counts[1], visitor);
+      }
+
+      bool covers(const Point &x) const override
+      {
+        constexpr double margin = 1e-6; // of a particle's distance
+        const double     X = x[0] - centre[0], Y = x[1] - centre[1], R = std::hypot(X, Y);
+        constexpr double turn = 2 * numbers::PI;
+        double           angle = std::atan2(Y, X) - start * radians;
+        angle -= turn * std::floor(angle / turn);
+        const double at[3] = {R - inner, angle, dim == 3 ? x[dim - 1] - centre[dim - 1] : 0.};
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(at[d] > margin * spacing[d] && at[d] < (counts[d] - margin) * spacing[d]) &&
+              !(d == 1 && end - start == 360))
+            return false;
+        return true;
+      }
+
     private:
       struct Range
       {

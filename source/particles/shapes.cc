@@ -69,6 +69,7 @@ namespace Talus
       {
         this->add_parameter("Centre", centre, "Centre of the ball [length].", this->prm, coordinates(dim));
         this->add_parameter("Radius", radius, "Radius of the ball [length].", this->prm, Patterns::Double());
+        this->add_edge_volumes();
       }
 
       BoundingBox<dim> bounding_box() const override
@@ -81,6 +82,7 @@ namespace Talus
         return BoundingBox<dim>({to_point<dim>(centre) - diagonal, to_point<dim>(centre) + diagonal});
       }
       bool        contains(const Point<dim> &x) const override { return x.distance(to_point<dim>(centre)) < radius; }
+      bool        is_curved(const unsigned int) const override { return true; }
       std::string position_entry() const override { return "Centre"; }
 
       std::vector<std::string> face_names() const override { return {"side"}; }
@@ -107,6 +109,7 @@ namespace Talus
                             Patterns::Double());
         this->add_parameter("Axis", axis, "Direction of the axis.", this->prm,
                             Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"));
+        this->add_edge_volumes();
       }
 
       BoundingBox<dim> bounding_box() const override
@@ -129,6 +132,7 @@ namespace Talus
         r[along()]       = 0;
         return r.norm() < radius;
       }
+      bool is_curved(const unsigned int d) const override { return dim == 3 && d != along(); }
       std::string position_entry() const override { return "Centre"; }
 
       std::vector<std::string> face_names() const override { return {"side", "base", "top"}; }

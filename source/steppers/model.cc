@@ -106,7 +106,10 @@ namespace Talus
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
     if (!bodies.empty())
+    {
       particles.create(grid, bodies, materials);
+      overlaps.check(particles, bodies, grid);
+    }
     for (auto &condition : boundary.conditions)
       condition->attach(grid);
     boundary.mark_slip_walls(std::numeric_limits<double>::min(), particles.n_stencil_nodes, grid);

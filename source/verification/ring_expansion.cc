@@ -7,17 +7,15 @@ namespace Talus
 
   namespace
   {
-    /** radial e_r (x) e_r + tangential e_t (x) e_t + axial e_z (x) e_z at X. */
+    /** radial e_r (x) e_r + tangential e_t (x) e_t at X. */
     template <int dim>
-    Tensor<2, dim> polar_matrix(const Point<dim> &X, const double radial, const double tangential, const double axial)
+    Tensor<2, dim> polar_matrix(const Point<dim> &X, const double radial, const double tangential)
     {
       const double   R = std::hypot(X[0], X[1]), c = X[0] / R, s = X[1] / R;
       Tensor<2, dim> result;
       result[0][0] = radial * c * c + tangential * s * s;
       result[1][1] = radial * s * s + tangential * c * c;
       result[0][1] = result[1][0] = (radial - tangential) * c * s;
-      if (dim == 3)
-        result[dim - 1][dim - 1] = axial;
       return result;
     }
 
@@ -33,7 +31,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  RingExpansion<dim>::RingExpansion(const std::string &section) : ManufacturedSolution<dim>(section)
+  RingExpansion<dim>::RingExpansion(const std::string &section) : StandingWave<dim>(section)
   {
     this->add_parameter("Amplitude", amplitude, "A of the displacement A sin(pi c t / (r_i + r_o)) g(R) [length].",
                         this->prm, Patterns::Double());
@@ -66,46 +64,30 @@ namespace Talus
   }
 
   template <int dim>
-  Tensor<1, dim> RingExpansion<dim>::displacement(const Point &X, const double t) const
+  Tensor<1, dim> RingExpansion<dim>::shape(const Point &X) const
   {
     const double R = std::hypot(X[0], X[1]);
-    return radial_vector(X, amplitude * Oscillation(omega(), t).value * (c3 * R * R + c2 * R + c1));
+    return radial_vector(X, amplitude * ratio(R));
   }
 
   template <int dim>
-  Tensor<1, dim> RingExpansion<dim>::velocity(const Point &X, const double t) const
+  Tensor<2, dim> RingExpansion<dim>::shape_gradient(const Point &X) const
   {
     const double R = std::hypot(X[0], X[1]);
-    return radial_vector(X, amplitude * Oscillation(omega(), t).first * (c3 * R * R + c2 * R + c1));
-  }
-
-  template <int dim>
-  Tensor<2, dim> RingExpansion<dim>::deformation_gradient(const Point &X, const double t) const
-  {
-    const double R = std::hypot(X[0], X[1]), A = amplitude * Oscillation(omega(), t).value;
-    return polar_matrix(X, 1 + A * (3 * c3 * R * R + 2 * c2 * R + c1), 1 + A * (c3 * R * R + c2 * R + c1), 1.);
-  }
-
-  template <int dim>
-  Tensor<2, dim> RingExpansion<dim>::deformation_rate(const Point &X, const double t) const
-  {
-    const double R = std::hypot(X[0], X[1]), A = amplitude * Oscillation(omega(), t).first;
-    return polar_matrix(X, A * (3 * c3 * R * R + 2 * c2 * R + c1), A * (c3 * R * R + c2 * R + c1), 0.);
+    return polar_matrix(X, amplitude * slope(R), amplitude * ratio(R));
   }
 
   template <int dim>
   Tensor<1, dim> RingExpansion<dim>::body_force(const Point &X, const double t) const
   {
     const auto &[lambda, mu, density] = this->material;
-    const Oscillation sine(omega(), t);
-    const double      R = std::hypot(X[0], X[1]), A = amplitude * sine.value;
-    const double      u = A * (c3 * R * R + c2 * R + c1) * R, u_R = A * (3 * c3 * R * R + 2 * c2 * R + c1),
-                 u_RR = A * (6 * c3 * R + 2 * c2);
+    const double R = std::hypot(X[0], X[1]), A = amplitude * this->sine(t).value;
+    const double u = A * ratio(R) * R, u_R = A * slope(R), u_RR = A * (6 * c3 * R + 2 * c2);
     const double F_r = 1 + u_R, F_t = 1 + u / R, log_J = std::log(F_r * F_t);
     const double log_J_R = u_RR / F_r + (u_R - u / R) / (R * F_t);
     const double P_r = lambda * log_J / F_r + mu * (F_r - 1 / F_r), P_t = lambda * log_J / F_t + mu * (F_t - 1 / F_t);
     const double P_r_R = lambda * (log_J_R / F_r - log_J * u_RR / (F_r * F_r)) + mu * u_RR * (1 + 1 / (F_r * F_r));
-    const double acceleration = amplitude * sine.second * (c3 * R * R + c2 * R + c1) * R;
+    const double acceleration = amplitude * this->sine(t).second * ratio(R) * R;
     return radial_vector(X, (acceleration - (P_r_R + (P_r - P_t) / R) / density) / R);
   }
 

@@ -6,7 +6,7 @@ namespace Talus
   using namespace dealii;
 
   template <int dim>
-  Vibration<dim>::Vibration(const std::string &section) : ManufacturedSolution<dim>(section)
+  Vibration<dim>::Vibration(const std::string &section) : StandingWave<dim>(section)
   {
     this->add_parameter("Amplitude", amplitude, "Greatest displacement A [length].", this->prm, Patterns::Double());
     this->add_parameter("Length", length, "Edge L of the box, which begins at the origin [length].", this->prm,
@@ -31,48 +31,30 @@ namespace Talus
   }
 
   template <int dim>
-  Tensor<1, dim> Vibration<dim>::displacement(const Point &X, const double t) const
+  Tensor<1, dim> Vibration<dim>::shape(const Point &X) const
   {
-    Vector u;
+    Vector U;
     for (unsigned int d = 0; d < dim; ++d)
-      u[d] = amplitudes[d] * std::sin(k() * X[d]) * Oscillation(omega(), t).value;
-    return u;
+      U[d] = amplitudes[d] * std::sin(k() * X[d]);
+    return U;
   }
 
   template <int dim>
-  Tensor<1, dim> Vibration<dim>::velocity(const Point &X, const double t) const
+  Tensor<2, dim> Vibration<dim>::shape_gradient(const Point &X) const
   {
-    Vector v;
+    Matrix gradient;
     for (unsigned int d = 0; d < dim; ++d)
-      v[d] = amplitudes[d] * std::sin(k() * X[d]) * Oscillation(omega(), t).first;
-    return v;
-  }
-
-  template <int dim>
-  Tensor<2, dim> Vibration<dim>::deformation_gradient(const Point &X, const double t) const
-  {
-    Matrix F;
-    for (unsigned int d = 0; d < dim; ++d)
-      F[d][d] = 1 + amplitudes[d] * k() * std::cos(k() * X[d]) * Oscillation(omega(), t).value;
-    return F;
-  }
-
-  template <int dim>
-  Tensor<2, dim> Vibration<dim>::deformation_rate(const Point &X, const double t) const
-  {
-    Matrix rate;
-    for (unsigned int d = 0; d < dim; ++d)
-      rate[d][d] = amplitudes[d] * k() * std::cos(k() * X[d]) * Oscillation(omega(), t).first;
-    return rate;
+      gradient[d][d] = amplitudes[d] * k() * std::cos(k() * X[d]);
+    return gradient;
   }
 
   template <int dim>
   Tensor<1, dim> Vibration<dim>::body_force(const Point &X, const double t) const
   {
     const auto &[lambda, mu, density] = this->material;
-    const Matrix F                    = deformation_gradient(X, t);
+    const Matrix F                    = this->deformation_gradient(X, t);
     const double log_J                = std::log(determinant(F));
-    Vector       b                    = displacement(X, t);
+    Vector       b                    = this->displacement(X, t);
     for (unsigned int d = 0; d < dim; ++d)
       b[d] *= k() * k() * (mu - (lambda * (log_J - 1) - mu) / (F[d][d] * F[d][d])) / density - omega() * omega();
     return b;

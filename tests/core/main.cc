@@ -12,6 +12,7 @@ void expressions();
 void reduction();
 void traffic();
 void table();
+void text_files();
 void registry();
 void simd();
 void batches();
@@ -31,6 +32,7 @@ int main(int argc, char **argv)
                     {"reduction", reduction},
                     {"traffic", traffic},
                     {"table", table},
+                    {"text files", text_files},
                     {"registry", registry},
                     {"simd", simd},
                     {"batches", batches}});

@@ -23,11 +23,28 @@ DECLARE(half_edges_of_shapes)
 DECLARE(ring)
 DECLARE(ring_errors)
 DECLARE(clipped)
+DECLARE(on_grid_lines)
+DECLARE(on_faces)
+DECLARE(edge_volumes)
+DECLARE(shifted_lattices)
+DECLARE(overlaps)
+void point_table();
 
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
-                   {{"lattice 2D", lattice<2>},
+                   {{"point table", point_table},
+                    {"edge volumes 2D", edge_volumes<2>},
+                    {"edge volumes 3D", edge_volumes<3>},
+                    {"shifted lattices 2D", shifted_lattices<2>},
+                    {"shifted lattices 3D", shifted_lattices<3>},
+                    {"overlaps 2D", overlaps<2>},
+                    {"overlaps 3D", overlaps<3>},
+                    {"on grid lines 2D", on_grid_lines<2>},
+                    {"on grid lines 3D", on_grid_lines<3>},
+                    {"on faces 2D", on_faces<2>},
+                    {"on faces 3D", on_faces<3>},
+                    {"lattice 2D", lattice<2>},
                     {"lattice 3D", lattice<3>},
                     {"numbers of points 2D", numbers_of_points<2>},
                     {"numbers of points 3D", numbers_of_points<3>},

@@ -239,7 +239,7 @@ void outside()
   Setup<dim> setup(text<dim>("quadratic B-spline"));
   auto      &set = setup.particles;
   for (unsigned int d = 0; d < dim; ++d)
-    for (const double x : {-1e-9, 1., 1.5, 1e30, -1e30, std::nan("")})
+    for (const double x : {-1e-9, 1 + 1e-8, 1.5, 1e30, -1e30, std::nan("")})
     {
       const unsigned int p              = 5;
       const double       before         = set.component(set.position, d)[p];

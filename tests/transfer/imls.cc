@@ -240,44 +240,7 @@ void imls_domains()
   check("domains and points", difference, 1e-11);
 }
 
-/** An affine velocity is exact at all nodes that have mass; the momentum of any other field is nearly kept. */
-template <int dim>
-void cpls_affine()
-{
-  const std::string velocity = dim == 2 ? "0.3 + 2*x - y; 1 - 0.5*x + 3*y" :
-                                          "0.3 + 2*x - y + z; 1 - 0.5*x + 3*y; 0.2*x - y + 0.4*z";
-  const std::string gradient = dim == 2 ? "2, -1, -0.5, 3" : "2, -1, 1, -0.5, 3, 0, 0.2, -1, 0.4";
-  Setup<dim> setup(skewed_grid<dim>({{8, 8, 6}}) + section("Kernel", set("Type", "CPDI")) + transfer_text("CPLS") +
-                   body_text(set("Shape", "ball") + set("Centre", coordinates<dim>({{0.1, 1.02, 0.57}})) +
-                             set("Radius", "0.2") + set("Velocity", velocity) + set("Velocity gradient", gradient)));
-  setup.scatter();
-  setup.grid.fields.add_copies_to_owners();
-  setup.transfer->complete(setup.grid);
-  double       error = 0;
-  unsigned int n     = 0;
-  for (unsigned int i = 0; i < setup.grid.fields.n_owned(); ++i)
-  {
-    const double *node = setup.grid.fields[i];
-    if (!(node[0] > setup.grid.mass_floor))
-      continue;
-    ++n;
-    const auto x = setup.grid.node_position(i);
-    const double A[3][3] = {{2, -1, dim == 3 ? 1. : 0.}, {-0.5, 3, 0}, {0.2, -1, 0.4}}, b[3] = {0.3, 1, 0};
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      double v = b[d];
-      for (unsigned int e = 0; e < dim; ++e)
-        v += A[d][e] * x[e];
-      raise(error, node[NodalFields<dim>::momentum + d] / node[0] - v);
-    }
-  }
-  check("nodes with mass", sum(n) > 20 ? 0. : 2., 1.);
-  check("affine velocity", error, 1e-12);
-}
-
 template void imls_on_a_lattice<2>();
 template void imls_on_a_lattice<3>();
 template void imls_domains<2>();
 template void imls_domains<3>();
-template void cpls_affine<2>();
-template void cpls_affine<3>();

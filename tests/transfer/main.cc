@@ -28,6 +28,7 @@ DECLARE(traction_errors)
 DECLARE(imls_on_a_lattice)
 DECLARE(imls_domains)
 DECLARE(cpls_affine)
+DECLARE(cpls_momentum)
 void imls_at_a_node();
 
 int main(int argc, char **argv)
@@ -40,6 +41,8 @@ int main(int argc, char **argv)
                     {"IMLS: domains 3D", imls_domains<3>},
                     {"CPLS: affine velocity 2D", cpls_affine<2>},
                     {"CPLS: affine velocity 3D", cpls_affine<3>},
+                    {"CPLS: momentum 2D", cpls_momentum<2>},
+                    {"CPLS: momentum 3D", cpls_momentum<3>},
                     {"mass and momentum 2D", mass_and_momentum<2>},
                     {"mass and momentum 3D", mass_and_momentum<3>},
                     {"angular momentum of APIC 2D", angular_momentum_of_apic<2>},

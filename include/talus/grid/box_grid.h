@@ -33,7 +33,7 @@ namespace Talus
     using typename Grid<dim>::CellIterator;
     using typename Grid<dim>::CellWeight;
     using typename Grid<dim>::Points;
-    using typename Grid<dim>::Visit;
+    using typename Grid<dim>::Columns;
     using Grid<dim>::none;
     using Grid<dim>::communicator;
     using Grid<dim>::dof_handler;
@@ -51,7 +51,7 @@ namespace Talus
     void create(const CellWeight &weight, const Reach &reach) override;
 
     std::size_t         n_places() const override { return lattice.node.size(); }
-    void                look(const Points &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+    void                look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
                              Found &found) const override;
     void                places(const Points &x, const unsigned int *place, const unsigned int begin,
                                const unsigned int end, unsigned int *result) const override;
@@ -66,10 +66,13 @@ namespace Talus
     bool               contains(const dealii::Tensor<1, dim> &x) const override;
     std::size_t        cell_number(const dealii::Point<dim> &x) const override;
     dealii::Point<dim> inside_cell(const dealii::Point<dim> &x) const override { return lattice.inside_cell(x); }
+    bool               enter(dealii::Tensor<1, dim> &x) const override { return lattice.enter(x); }
     double             share_inside(dealii::Point<dim> &x) const override { return lattice.share_inside(x); }
-    std::optional<dealii::Point<dim>> find_outside(const Visit &visit) const override;
-    std::string                       extent() const override;
-    std::string                       summary() const override;
+
+    dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const override;
+    std::vector<bool>        are_inside(const std::vector<dealii::Point<dim>> &points) const override;
+    std::string              extent() const override;
+    std::string              summary() const override;
 
     /** The face of the box with this number. */
     BoundaryPart<dim> boundary(const std::string &number) const override;
@@ -113,6 +116,9 @@ namespace Talus
      */
     void learn_layers(const unsigned int n_layers, std::vector<dealii::types::global_dof_index> &dofs,
                       dealii::IndexSet &known);
+
+    /** Puts a particle back on the faces of the domain from which round-off has taken it. */
+    void put_on_face(const Columns &x, const unsigned int p) const;
 
     /** Sets the ranks of leavers that this rank does not know. Collective. */
     void find_far_ranks(const Points &x, std::vector<Leaver> &leavers) const;

@@ -11,7 +11,6 @@
 #include <deal.II/fe/mapping.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace Talus
@@ -46,6 +45,7 @@ namespace Talus
   public:
     using CellIterator = typename dealii::Triangulation<dim>::active_cell_iterator;
     using Points       = std::array<const double *, dim>; // a column for each coordinate
+    using Columns      = std::array<double *, dim>;
     using CellWeight   = std::function<unsigned int(const CellIterator &)>;
 
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
@@ -64,8 +64,11 @@ namespace Talus
     /** All places are below this number. */
     virtual std::size_t n_places() const = 0;
 
-    /** Looks where the points begin .. end - 1 have come, and brings their places up to date. */
-    virtual void look(const Points &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+    /**
+     * Looks where the points begin .. end - 1 have come, and brings their places up to date; what is beyond a face by
+     * round-off is put on it.
+     */
+    virtual void look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
                       Found &found) const = 0;
 
     /** Their places; `none` where this rank does not know all nodes of the stencil. */
@@ -97,18 +100,20 @@ namespace Talus
     /** x, moved off the faces of its cell, on which deal.II may lose a particle. */
     virtual dealii::Point<dim> inside_cell(const dealii::Point<dim> &x) const { return x; }
 
+    /** A box that holds a cell, and what lies on its faces by round-off. */
+    virtual dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const = 0;
+
     /**
-     * The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut. May move x onto a
-     * face from which round-off has taken it.
+     * Puts x on the faces of the domain from which round-off has taken it. False where x lies farther out, or where this
+     * rank knows no cell that holds it.
      */
+    virtual bool enter(dealii::Tensor<1, dim> &x) const = 0;
+
+    /** The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut. Moves x as enter(). */
     virtual double share_inside(dealii::Point<dim> &x) const = 0;
 
-    /** Calls a function for some points in a box, or near it. */
-    using Visit =
-      std::function<void(const dealii::BoundingBox<dim> &, const std::function<void(const dealii::Point<dim> &)> &)>;
-
-    /** One of the points that lies outside the grid, the same on all ranks. Collective. */
-    virtual std::optional<dealii::Point<dim>> find_outside(const Visit &visit) const = 0;
+    /** Whether points lie in the domain, each rank asks for its own. Collective. */
+    virtual std::vector<bool> are_inside(const std::vector<dealii::Point<dim>> &points) const = 0;
 
     /** Where the grid lies, for messages: "which reaches from .. to ..". */
     virtual std::string extent() const = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace Talus
@@ -62,35 +63,65 @@ namespace Talus
 
     double node_position(const int index, const unsigned int d) const { return origin[d] + index * h[d]; }
 
-    /** True where the lattice coordinate along `d` lies in the domain. */
+    /**
+     * True where the lattice coordinate along `d` lies in the domain. The upper face belongs to it: enter() puts what is
+     * on it into the last cell.
+     */
     bool is_inside(const double coordinate, const unsigned int d) const
     {
-      return coordinate >= 0 && coordinate < n_cells[d];
+      return coordinate >= 0 && coordinate <= n_cells[d];
+    }
+
+    /** How far beyond a face a position is still on it, by round-off: 1e-9 spacings, or the last 3 bits of it [length]. */
+    double face_tolerance(const unsigned int d) const
+    {
+      const double largest = std::max(std::abs(origin[d]), std::abs(node_position(n_cells[d], d)));
+      return std::max(1e-9 * h[d], 8 * std::numeric_limits<double>::epsilon() * largest);
+    }
+
+    /** The largest position in the last cell: the upper face, but for one or two of its last bits [length]. */
+    double upper_end(const unsigned int d) const
+    {
+      double x = node_position(n_cells[d], d);
+      while (!(coordinate(x, d) < n_cells[d]))
+        x = std::nextafter(x, origin[d]);
+      return x;
+    }
+
+    /**
+     * Puts x on the faces of the domain from which round-off has taken it: what lies beyond one, or on the upper one of
+     * an axis, becomes the end of the axis' first or last cell. False where x lies farther out.
+     */
+    bool enter(dealii::Tensor<1, dim> &x) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double c = coordinate(x[d], d);
+        if (c >= 0 && c < n_cells[d])
+          continue;
+        const double face = c < 0 ? origin[d] : node_position(n_cells[d], d);
+        if (!(std::abs(x[d] - face) <= face_tolerance(d)))
+          return false;
+        x[d] = c < 0 ? origin[d] : upper_end(d);
+      }
+      return true;
     }
 
     /**
      * The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut: half of it where
-     * it sits on a face, a quarter on two. Moves x onto a face from which round-off has taken it.
+     * it sits on a face, a quarter on two; 0 outside. Moves x as enter() does.
      */
     double share_inside(dealii::Point<dim> &x) const
     {
-      constexpr double round_off = 1e-9;
-      double           share     = 1;
+      double share = 1;
       for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double c = coordinate(x[d], d), nearest = c < 0.5 * n_cells[d] ? 0. : n_cells[d];
-        if (std::abs(c - nearest) < round_off)
-        {
-          x[d] = node_position(static_cast<int>(nearest), d);
-          share *= 0.5;
-        }
-        else if (!is_inside(c, d))
-          return 0;
-      }
-      return share;
+        for (const double face : {origin[d], node_position(n_cells[d], d)})
+          if (std::abs(x[d] - face) <= face_tolerance(d))
+            share *= 0.5;
+      return enter(x) ? share : 0;
     }
 
-    /** The cell that contains x, whether or not it exists. */
+    /** The cell that contains x, whether or not it exists. On a face between two it is the upper one; see enter(). */
     Index cell_index(const dealii::Point<dim> &x) const
     {
       Index index;

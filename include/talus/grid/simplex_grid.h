@@ -28,7 +28,8 @@ namespace Talus
   public:
     using typename Grid<dim>::CellWeight;
     using typename Grid<dim>::Points;
-    using typename Grid<dim>::Visit;
+    using typename Grid<dim>::CellIterator;
+    using typename Grid<dim>::Columns;
     using Grid<dim>::none;
     using Grid<dim>::communicator;
     using Grid<dim>::fields;
@@ -42,7 +43,7 @@ namespace Talus
 
     bool                keeps_places() const override { return true; }
     std::size_t         n_places() const override { return mesh().n_cells(); }
-    void                look(const Points &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+    void                look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
                              Found &found) const override;
     void                places(const Points &x, const unsigned int *place, const unsigned int begin,
                                const unsigned int end, unsigned int *result) const override;
@@ -56,13 +57,18 @@ namespace Talus
     /** The local cell, or `none`. */
     std::size_t cell_number(const dealii::Point<dim> &x) const override;
 
+    dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const override;
+
+    /** Moves nothing: what is outside by round-off belongs to a cell nevertheless. */
+    bool enter(dealii::Tensor<1, dim> &x) const override { return contains(x); }
+
     /** All or nothing. */
     double share_inside(dealii::Point<dim> &x) const override { return contains(x) ? 1. : 0.; }
 
-    std::optional<dealii::Point<dim>> find_outside(const Visit &visit) const override;
-    std::string                       extent() const override;
-    std::string                       summary() const override;
-    BoundaryPart<dim>                 boundary(const std::string &name) const override;
+    std::vector<bool> are_inside(const std::vector<dealii::Point<dim>> &points) const override;
+    std::string       extent() const override;
+    std::string       summary() const override;
+    BoundaryPart<dim> boundary(const std::string &name) const override;
 
     const Mesh<dim> &mesh() const { return this->partition.mesh; }
 

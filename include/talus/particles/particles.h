@@ -21,8 +21,8 @@ namespace Talus
   {
   public:
     /**
-     * Creates the particles of all bodies in the cells this rank owns. Throws
-     * EntryError for an empty body and for one that does not lie in the grid.
+     * Creates the particles of all bodies in the cells this rank owns. Throws EntryError for an empty body, for one that
+     * does not lie in the grid, and where number or volume of a body's particles are not those of its shape. Collective.
      */
     void create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
                 const std::vector<std::unique_ptr<Material>> &materials);
@@ -39,7 +39,8 @@ namespace Talus
 
     /**
      * Finds out whether the particles begin .. end - 1 can stay with this rank, and
-     * whether one has left the grid. What is found is acted on where the ranks meet next.
+     * whether one has left the grid; who is beyond a face by round-off is put on it (Grid::enter()). What is found is
+     * acted on where the ranks meet next.
      */
     void relocate(const unsigned int begin, const unsigned int end);
 

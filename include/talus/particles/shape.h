@@ -5,6 +5,7 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -35,6 +36,9 @@ namespace Talus
     /** Visits all points in `box`; points close to it may be visited too. */
     virtual void visit(const dealii::BoundingBox<dim> &box, const Visitor &visitor) const = 0;
 
+    /** Visits the points of part number `part` of `n_parts`, which have each point once. */
+    virtual void visit_part(const unsigned int part, const unsigned int n_parts, const Visitor &visitor) const = 0;
+
     /**
      * The edges of the parallelogram or parallelepiped that a point stands for, from its middle to the middle of a
      * face each: a right-handed basis of volume `volume` / 2^dim, for kernels that follow a particle's domain. Unless
@@ -47,6 +51,12 @@ namespace Talus
         edges[d][d] = 0.5 * std::pow(volume, 1. / dim);
       return edges;
     }
+
+    /** Whether x lies within the region that the points stand for, and not on its surface; a list of points has none. */
+    virtual bool covers(const Point & /*x*/) const { return false; }
+
+    /** Whether the shape is nothing but points: covers() then knows nothing. */
+    virtual bool is_list() const { return false; }
 
     /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
     virtual std::string position_entry() const = 0;
@@ -62,5 +72,12 @@ namespace Talus
 
     /** All indices are below this number. */
     virtual std::uint64_t n_indices() const = 0;
+
+  protected:
+    /** Where part number `part` of n things in `n_parts` begins; where the last one ends for part = n_parts. */
+    static std::uint64_t part_begin(const std::uint64_t n, const unsigned int part, const unsigned int n_parts)
+    {
+      return n / n_parts * part + std::min<std::uint64_t>(n % n_parts, part);
+    }
   };
 } // namespace Talus

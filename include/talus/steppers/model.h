@@ -4,6 +4,7 @@
 #include <talus/core/body_force.h>
 #include <talus/core/parameters.h>
 #include <talus/particles/material_range.h>
+#include <talus/particles/overlaps.h>
 #include <talus/particles/particles.h>
 #include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
@@ -42,6 +43,7 @@ namespace Talus
     std::vector<std::string>                material_names;
     std::vector<std::unique_ptr<Material>>  materials;
     std::vector<std::unique_ptr<Body<dim>>> bodies;
+    Overlaps<dim>                           overlaps;
     Particles<dim>                          particles;
     Boundary<dim>                           boundary;
     Tractions<dim>                          tractions;

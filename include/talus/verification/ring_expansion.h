@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/verification/manufactured_solution.h>
+#include <talus/verification/standing_wave.h>
 
 namespace Talus
 {
@@ -14,7 +14,7 @@ namespace Talus
    * Tran et al. (2019), Eqs. 57-59, corrected; after Wallstedt & Guilkey (2008).
    */
   template <int dim>
-  class RingExpansion : public ManufacturedSolution<dim>
+  class RingExpansion : public StandingWave<dim>
   {
   public:
     using Point  = dealii::Point<dim>;
@@ -26,11 +26,9 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
     void check(const NeoHookeanConstants &material) const override;
 
-    Vector displacement(const Point &X, const double t) const override;
-    Vector velocity(const Point &X, const double t) const override;
-    Matrix deformation_gradient(const Point &X, const double t) const override;
-    Matrix deformation_rate(const Point &X, const double t) const override;
     Vector body_force(const Point &X, const double t) const override;
+
+    using StandingWave<dim>::displacement;
 
     /** u for any kind of number. */
     template <typename Number>
@@ -47,7 +45,12 @@ namespace Talus
     }
 
   private:
-    double omega() const { return dealii::numbers::PI * this->material.wave_speed() / (inner + outer); }
+    double omega() const override { return dealii::numbers::PI * this->material.wave_speed() / (inner + outer); }
+    Vector shape(const Point &X) const override;
+    Matrix shape_gradient(const Point &X) const override;
+
+    double ratio(const double R) const { return (c3 * R + c2) * R + c1; }         // g / R
+    double slope(const double R) const { return (3 * c3 * R + 2 * c2) * R + c1; } // g'
 
     double amplitude = 0.1, inner = 0.4, outer = 0.6;
     double c1 = 0, c2 = 0, c3 = 0;

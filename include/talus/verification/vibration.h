@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/verification/manufactured_solution.h>
+#include <talus/verification/standing_wave.h>
 
 namespace Talus
 {
@@ -14,7 +14,7 @@ namespace Talus
    * The period is 2 L / c. Needs A k pi / L < 1, so that F_i > 0. Tran et al. (2019), Eqs. 48-51, corrected.
    */
   template <int dim>
-  class Vibration : public ManufacturedSolution<dim>
+  class Vibration : public StandingWave<dim>
   {
   public:
     using Point  = dealii::Point<dim>;
@@ -25,11 +25,9 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    Vector displacement(const Point &X, const double t) const override;
-    Vector velocity(const Point &X, const double t) const override;
-    Matrix deformation_gradient(const Point &X, const double t) const override;
-    Matrix deformation_rate(const Point &X, const double t) const override;
     Vector body_force(const Point &X, const double t) const override;
+
+    using StandingWave<dim>::displacement;
 
     /** u for any kind of number. */
     template <typename Number>
@@ -43,7 +41,9 @@ namespace Talus
     }
 
   private:
-    double omega() const { return dealii::numbers::PI * this->material.wave_speed() / length; }
+    double omega() const override { return dealii::numbers::PI * this->material.wave_speed() / length; }
+    Vector shape(const Point &X) const override;
+    Matrix shape_gradient(const Point &X) const override;
     double k() const { return wave_number * dealii::numbers::PI / length; } // [1/length]
 
     double                  amplitude = 0.1, length = 1, wave_number = 2;

@@ -1,0 +1,292 @@
+#include <talus/core/exceptions.h>
+#include <talus/particles/overlaps.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string allowed = " Move or cut one of them; 'Allow overlap = true' in section 'Bodies' allows it.";
+
+    /** Two particles, or a particle and a body, that are in each other's way: the first of all ranks counts. */
+    template <int dim>
+    struct Pair
+    {
+      std::uint64_t           id     = std::numeric_limits<std::uint64_t>::max();
+      std::uint64_t           number = 0;  // of pairs with the same bodies
+      unsigned int            body = 0, other = 0;
+      std::uint64_t           other_id = 0;
+      std::array<double, dim> x        = {};
+
+      bool is_found() const { return id != std::numeric_limits<std::uint64_t>::max(); }
+
+      std::string place() const
+      {
+        Tensor<1, dim> point;
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = x[d];
+        return to_text(point);
+      }
+    };
+
+    template <int dim>
+    Pair<dim> pair_of(const Particles<dim> &particles, const unsigned int p, const unsigned int other)
+    {
+      Pair<dim> pair;
+      pair.id    = particles.id[p];
+      pair.body  = particles.body[p];
+      pair.other = other;
+      for (unsigned int d = 0; d < dim; ++d)
+        pair.x[d] = particles.component(particles.position, d)[p];
+      return pair;
+    }
+
+    /** The pair of lowest id of all ranks. */
+    template <int dim>
+    Pair<dim> first_of_all(Pair<dim> pair, const Communicator &communicator)
+    {
+      std::uint64_t n = 0;
+      for (const auto &other : Utilities::MPI::all_gather(communicator, pair))
+      {
+        n += other.number;
+        if (other.id < pair.id)
+          pair = other;
+      }
+      pair.number = n;
+      return pair;
+    }
+
+    /** A point of one body in the region of another. */
+    template <int dim>
+    Pair<dim> find_in_regions(const Particles<dim> &particles, const std::vector<std::unique_ptr<Body<dim>>> &bodies)
+    {
+      Pair<dim>     first;
+      std::uint64_t n = 0;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+      {
+        const Point<dim> x(particles.vector(particles.position, p));
+        for (unsigned int b = 0; b < bodies.size(); ++b)
+          if (b != particles.body[p] && bodies[b]->shape->covers(x))
+          {
+            ++n;
+            if (particles.id[p] < first.id)
+              first = pair_of(particles, p, b);
+          }
+      }
+      first.number = n;
+      return first;
+    }
+
+    /** The particles in each cell of this rank, one cell after the other; those at a lower face in both cells. */
+    template <int dim, class Visitor>
+    void for_each_cell(const Particles<dim> &particles, const Lattice<dim> &lattice, const double margin,
+                       const Visitor &visitor)
+    {
+      using Entry = std::pair<int, unsigned int>; // of the tables; particle
+      std::vector<Entry> entries;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+      {
+        const Point<dim> x(particles.vector(particles.position, p));
+        const auto       cell = lattice.cell_index(x);
+        entries.emplace_back(lattice.table_index(cell), p);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (lattice.coordinate(x[d], d) - cell[d] < margin)
+            entries.emplace_back(lattice.table_index(cell) - lattice.stride[d], p);
+      }
+      std::sort(entries.begin(), entries.end());
+      std::vector<unsigned int> members;
+      for (std::size_t begin = 0, end; begin < entries.size(); begin = end)
+      {
+        members.clear();
+        for (end = begin; end < entries.size() && entries[end].first == entries[begin].first; ++end)
+          members.push_back(entries[end].second);
+        visitor(members);
+      }
+    }
+
+    /** Two particles at the same place: nearer than a millionth of a particle's size. */
+    template <int dim>
+    Pair<dim> find_twins(const Particles<dim> &particles, const Lattice<dim> &lattice)
+    {
+      constexpr double near  = 1e-6;
+      const auto       x     = particles.template components<dim>(particles.position);
+      const double    *V     = particles.component(particles.volume, 0);
+      const auto       reach = [&](const unsigned int p) {
+        return near * std::min(std::pow(V[p], 1. / dim), lattice.smallest_spacing());
+      };
+      Pair<dim> first;
+      for_each_cell(particles, lattice, near, [&](std::vector<unsigned int> &members) {
+        std::sort(members.begin(), members.end(),
+                  [&](const unsigned int a, const unsigned int b) { return x[0][a] < x[0][b]; });
+        for (unsigned int i = 0; i < members.size(); ++i)
+          for (unsigned int k = i + 1; k < members.size(); ++k)
+          {
+            const unsigned int a = members[i], b = members[k];
+            const double       distance = std::min(reach(a), reach(b));
+            if (x[0][b] - x[0][a] > distance)
+              break;
+            double square = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              square += (x[d][a] - x[d][b]) * (x[d][a] - x[d][b]);
+            if (square > distance * distance)
+              continue;
+            const auto [low, high] = std::minmax(particles.id[a], particles.id[b]);
+            if (low < first.id)
+            {
+              first          = pair_of(particles, low == particles.id[a] ? a : b, 0);
+              first.other    = particles.body[low == particles.id[a] ? b : a];
+              first.other_id = high;
+            }
+            ++first.number;
+          }
+      });
+      return first;
+    }
+
+    /**
+     * Lists of points that fill the same space: the volumes of all lists, spread to the nodes as quadratic splines do,
+     * exceed those of the cells. Of a lattice that fills a cell it is exactly one.
+     */
+    template <int dim>
+    class Filling
+    {
+    public:
+      Filling(const Particles<dim> &particles, const std::vector<bool> &is_list, const BoxGrid<dim> &grid) : grid(grid)
+      {
+        nodes.reinit(grid.nodes);
+        for (unsigned int p = 0; p < particles.size(); ++p)
+          if (is_list[particles.body[p]])
+            spread(particles.vector(particles.position, p), particles.component(particles.volume, 0)[p],
+                   particles.body[p]);
+        nodes.add_copies_to_owners();
+      }
+
+      /** The owned node with most that has points of several bodies, and how often it is filled. */
+      std::pair<double, Tensor<1, dim>> fullest() const
+      {
+        std::pair<double, Tensor<1, dim>> result;
+        double                            cell = 1;
+        for (const double h : grid.lattice.h)
+          cell *= h;
+        for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        {
+          const double V = nodes[i][0], mean = nodes[i][1] / V, square = nodes[i][2] / V;
+          if (square - mean * mean > 0.05 && V / cell > result.first)
+            result = {V / cell, grid.node_position(i)};
+        }
+        return result;
+      }
+
+    private:
+      void spread(const Tensor<1, dim> &x, const double volume, const unsigned int body)
+      {
+        const Lattice<dim>          &lattice = grid.lattice;
+        typename Lattice<dim>::Index first;
+        double                       weight[dim][3];
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double c = lattice.coordinate(x[d], d);
+          first[d]       = static_cast<int>(std::floor(c - 0.5));
+          const double s = c - first[d];
+          weight[d][0]   = 0.5 * (1.5 - s) * (1.5 - s);
+          weight[d][1]   = 0.75 - (s - 1) * (s - 1);
+          weight[d][2]   = 0.5 * (s - 0.5) * (s - 0.5);
+        }
+        for_each_index(first, 3, [&](const auto &index) {
+          const unsigned int node = lattice.node_at(index);
+          if (node == lattice.missing)
+            return;
+          double w = volume;
+          for (unsigned int d = 0; d < dim; ++d)
+            w *= weight[d][index[d] - first[d]];
+          nodes[node][0] += w;
+          nodes[node][1] += w * body;
+          nodes[node][2] += w * body * body;
+        });
+      }
+
+      const BoxGrid<dim> &grid;
+      NodalArray<4>    nodes; // volume, times body, times its square
+    };
+
+    /** Names of the lists that have points within a spacing and a half of x. */
+    template <int dim>
+    std::vector<unsigned int> lists_around(const Particles<dim> &particles, const std::vector<bool> &is_list,
+                                           const Tensor<1, dim> &x, const Grid<dim> &grid)
+    {
+      std::vector<unsigned int> has_points(is_list.size(), 0);
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        if ((particles.vector(particles.position, p) - x).norm() < 1.5 * grid.largest_spacing)
+          has_points[particles.body[p]] = is_list[particles.body[p]];
+      Utilities::MPI::max(has_points, grid.communicator, has_points);
+      std::vector<unsigned int> bodies;
+      for (unsigned int b = 0; b < has_points.size(); ++b)
+        if (has_points[b] > 0)
+          bodies.push_back(b);
+      return bodies;
+    }
+  } // namespace
+
+  template <int dim>
+  Overlaps<dim>::Overlaps(const std::string &section) : ParameterAcceptor(section)
+  {
+    add_parameter("Allow overlap", are_allowed,
+                  "Whether bodies may overlap and points lie at the same place: their mass then counts twice.");
+  }
+
+  template <int dim>
+  void Overlaps<dim>::check(const Particles<dim> &particles, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                            const Grid<dim> &grid) const
+  {
+    if (are_allowed)
+      return;
+    const auto blame = [&](const unsigned int b, const std::string &message) {
+      throw EntryError(bodies[b]->get_section_name(), bodies[b]->shape->position_entry(), message + allowed);
+    };
+    const auto inside = first_of_all(find_in_regions(particles, bodies), grid.communicator);
+    if (inside.is_found())
+      blame(inside.body, "the bodies '" + bodies[inside.body]->name + "' and '" + bodies[inside.other]->name +
+                           "' overlap: " + std::to_string(inside.number) +
+                           " points of one lie in the other, the first at " + inside.place() + ".");
+    // What follows counts by the cells of a box.
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&grid);
+    if (box == nullptr)
+      return;
+    const auto twins = first_of_all(find_twins(particles, box->lattice), grid.communicator);
+    if (twins.is_found())
+    {
+      const auto name = [&](const unsigned int b, const std::uint64_t id) {
+        return std::to_string(id - bodies[b]->first_id + 1) + " of '" + bodies[b]->name + "'";
+      };
+      blame(twins.body, "the points number " + name(twins.body, twins.id) + " and " +
+                          name(twins.other, twins.other_id) + " lie at the same place, " + twins.place() + ", and " +
+                          std::to_string(twins.number - 1) + " more pairs do.");
+    }
+
+    std::vector<bool> is_list;
+    for (const auto &body : bodies)
+      is_list.push_back(body->shape->is_list());
+    if (std::count(is_list.begin(), is_list.end(), true) < 2)
+      return;
+    // A row of particles that two lists share fills nodes 1.4-fold, jitter and meshes 1.1-fold.
+    constexpr double most    = 1.3;
+    auto             fullest = Filling<dim>(particles, is_list, *box).fullest();
+    for (const auto &other : Utilities::MPI::all_gather(grid.communicator, fullest))
+      if (other.first > fullest.first)
+        fullest = other;
+    if (fullest.first <= most)
+      return;
+    const auto around = lists_around(particles, is_list, fullest.second, grid);
+    if (around.size() > 1)
+      blame(around[1], "the bodies '" + bodies[around[0]]->name + "' and '" + bodies[around[1]]->name +
+                         "' overlap: their points fill the space around " + to_text(fullest.second) + " " +
+                         std::to_string(fullest.first) + "-fold.");
+  }
+
+  template class Overlaps<2>;
+  template class Overlaps<3>;
+} // namespace Talus

@@ -1,0 +1,152 @@
+#include <talus/core/exceptions.h>
+#include <talus/particles/point_table.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+
+namespace Talus
+{
+  namespace
+  {
+    const std::string blanks = " \t\v\f";
+
+    std::string trim(const std::string &text)
+    {
+      const auto first = text.find_first_not_of(blanks);
+      return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    }
+
+    std::vector<std::string> split_at_blanks(const std::string &line)
+    {
+      std::vector<std::string> words;
+      for (std::size_t begin = 0, end; (begin = line.find_first_not_of(blanks, begin)) != std::string::npos; begin = end)
+      {
+        end = std::min(line.find_first_of(blanks, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+      }
+      return words;
+    }
+
+    std::vector<std::string> split_at(const std::string &line, const char separator)
+    {
+      std::vector<std::string> words;
+      std::size_t              begin = 0;
+      for (std::size_t end; (end = line.find(separator, begin)) != std::string::npos; begin = end + 1)
+        words.push_back(trim(line.substr(begin, end - begin)));
+      // What ends with a separator ends there.
+      const std::string last = trim(line.substr(begin));
+      if (!last.empty())
+        words.push_back(last);
+      return words;
+    }
+
+    /**
+     * The parts of a line, which has one kind of separator: with two, commas may as well stand for decimal points, and
+     * the parts between blanks will be no numbers.
+     */
+    std::vector<std::string> split(const std::string &line)
+    {
+      for (const char separator : {';', ','})
+        if (line.find(separator) != std::string::npos)
+        {
+          const auto words = split_at(line, separator);
+          for (const auto &word : words)
+            if (word.find_first_of(blanks) != std::string::npos)
+              return split_at_blanks(line);
+          return words;
+        }
+      return split_at_blanks(line);
+    }
+
+    /** Whether all of `word` is a number, infinite or NaN included, which it then is. */
+    bool is_number(const std::string &word, double &number)
+    {
+      char *end = nullptr;
+      number    = std::strtod(word.c_str(), &end);
+      if (!word.empty() && *end == '\0')
+        return true;
+      // Fortran: D for E, and nothing at all before exponents of three digits.
+      static const std::regex fortran("([+-]?(?:\\d+\\.?\\d*|\\.\\d+))(?:[dD]([+-]?\\d+)|([+-]\\d{3}))");
+      std::smatch             parts;
+      if (!std::regex_match(word, parts, fortran))
+        return false;
+      number = std::strtod((parts[1].str() + "e" + parts[2].str() + parts[3].str()).c_str(), &end);
+      return true;
+    }
+
+    std::string shortened(const std::string &text) { return text.size() > 60 ? text.substr(0, 57) + "..." : text; }
+
+    std::string list(const std::vector<std::string> &words)
+    {
+      std::string text;
+      for (const auto &word : words)
+        text += (text.empty() ? "" : " ") + word;
+      return text;
+    }
+  } // namespace
+
+  bool PointTable::is_header(const std::vector<std::string> &words, const std::string &where) const
+  {
+    double number = 0;
+    for (const auto &word : words)
+      if (is_number(word, number))
+        return false;
+    // "x [m]": units are no names.
+    std::vector<std::string> found;
+    for (const auto &word : words)
+      if (word.find_first_of("[(") != 0)
+        found.push_back(word);
+    for (unsigned int i = 0; i < names.size() && i < found.size(); ++i)
+      for (unsigned int k = 0; k < names.size(); ++k)
+        AssertThrow(k == i || found[i] != names[k],
+                    InputError(where + ": the columns are called '" + shortened(list(found)) + "', but are read as '" +
+                               list(names) + "'. Put them into this order."));
+    return true;
+  }
+
+  void PointTable::read_row(const std::vector<std::string> &words, const std::string &where)
+  {
+    const std::string wanted = std::to_string(names.size()) + " numbers (" + list(names) + ")";
+    for (const auto &word : words)
+    {
+      double     number = 0;
+      const bool is_one = is_number(word, number);
+      if (!is_one && word.find(',') != std::string::npos)
+        throw InputError(where + ": '" + shortened(word) +
+                         "' is not a number. Write decimal points, not commas; separate numbers by blanks, or all of "
+                         "them by commas, or by semicolons.");
+      if (is_one && std::isinf(number) && word.find_first_of("iI") == std::string::npos)
+        throw InputError(where + ": '" + shortened(word) + "' is too large for a number. Correct the line.");
+      AssertThrow(is_one && std::isfinite(number),
+                  InputError(where + ": '" + shortened(word) + "' is not a finite number. Correct the line."));
+      numbers.push_back(number);
+    }
+    AssertThrow(words.size() == names.size(),
+                InputError(where + ": expected " + wanted + ", found " + std::to_string(words.size()) +
+                           (words.size() == 2 * names.size() ?
+                              ". If commas stand for decimal points, write points. If not, correct the line." :
+                              ". Complete or remove the line.")));
+  }
+
+  void PointTable::read(const std::vector<std::string> &lines, const std::string &file_name)
+  {
+    bool is_first = true;
+    for (unsigned int number = 1; number <= lines.size(); ++number)
+    {
+      const std::string &whole = lines[number - 1];
+      const std::string  line  = trim(whole.substr(0, whole.find('#')));
+      if (line.empty())
+        continue;
+      const std::string where = file_name + ":" + std::to_string(number);
+      const bool        is_named =
+        is_first && is_header(split_at_blanks(std::regex_replace(line, std::regex("[,;]"), " ")), where);
+      is_first = false;
+      if (is_named)
+        continue;
+      read_row(split(line), where);
+      lines_of_rows.push_back(number);
+    }
+  }
+} // namespace Talus
