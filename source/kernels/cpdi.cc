@@ -32,176 +32,218 @@ namespace Talus
       }
 
       void  add_fields(WorkingSet<dim> &particles) override { half_edges = Corners<dim>::add_field(particles); }
-      void  attach(const Grid<dim> &grid) override { lattice = &box_grid(grid, "/Kernel", "Type").lattice; }
       Reach reach() const override { return {2, 0., /* at_corners = */ true, n_layers}; }
+
+      void attach(const Grid<dim> &grid) override
+      {
+        lattice = &box_grid(grid, "/Kernel", "Type").lattice;
+        for (unsigned int i = 0; i < padded; ++i)
+        {
+          place_in_box[i] = 0;
+          for (unsigned int d = 0, rest = std::min(i, n_box - 1); d < dim; ++d, rest /= usual_extent)
+          {
+            offset_in_box[d][i] = rest % usual_extent * lattice->h[d];
+            place_in_box[i] += rest % usual_extent * lattice->stride[d];
+          }
+        }
+      }
 
       void evaluate(const WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end,
                     Stencil<dim> *stencils) const override
       {
         const Corners<dim> corners(particles, half_edges);
-        Batch              found;
+        Domains            found;
         for_each_batch(begin, end, [&](const auto batch) {
           find(corners.position(batch), corners.half_edges(batch), found);
-          for (unsigned int l = 0; l < batch.size(); ++l)
-            merge(found, l, stencils[batch.p - begin + l]);
+          Stencil<dim> *of_batch = stencils + (batch.p - begin);
+          if (found.largest_extent <= static_cast<int>(usual_extent))
+            list_boxes(found, batch.size(), of_batch);
+          else
+            for (unsigned int l = 0; l < batch.size(); ++l)
+              list_corners(found, l, of_batch[l]);
         });
       }
 
     private:
       using Number = Simd<native_width>;
-      using Four   = Simd<4>; // phi and its gradient
 
-      static constexpr unsigned int n_corners  = Corners<dim>::n;
-      static constexpr unsigned int n_hats     = 1u << dim; // that are not zero at a corner
-      static constexpr int          max_extent = 5;         // of the nodes that are merged, per axis
-      static constexpr unsigned int max_merged = dim == 2 ? 25 : 125;
+      static constexpr unsigned int n_corners = Corners<dim>::n;
+      static constexpr unsigned int n_hats    = 1u << dim; // that are not zero at a corner
 
-      /** The corners of the domains of a batch. */
-      struct Batch
+      // Nodes per axis of a box that holds those of all corners, as long as a domain is no longer than a spacing.
+      static constexpr unsigned int usual_extent = 3;
+      static constexpr unsigned int n_inner = dim == 2 ? usual_extent : usual_extent * usual_extent; // of a layer
+      static constexpr unsigned int n_box   = n_inner * usual_extent;
+      static constexpr unsigned int padded  = (n_box + 7) / 8 * 8;
+
+      /** The domains of a batch, one in each lane. */
+      struct Domains
       {
-        Number  x[dim];                            // lattice coordinates of the particle
-        Number  lowest[dim], extent[dim];          // the nodes of all corners: first index and number
-        Number  hat[n_corners][n_hats];            // at each corner those of its cell
-        Simd<8> share[n_corners / 2][native_width]; // of a particle, two corners: 2^-d (1, sum_e s_ce r^e, 0)
-        alignas(64) int first[n_corners][dim][native_width]; // lattice index of the cell's lower node
+        Number x[dim];                     // lattice coordinates of the particle
+        Number corner[n_corners][dim];     // and of the corners
+        Number gradient[n_corners][dim];   // 2^-d sum_e s_ce r^e
+        Number lowest[dim], extent[dim];   // the box of nodes: first index and number
+        int    largest_extent;             // of any lane and axis
+        int    n_layers;                   // largest extent of any lane along the last axis
       };
 
-      void find(const dealii::Tensor<1, dim, Number> &x, const dealii::Tensor<2, dim, Number> &r, Batch &found) const
+      void find(const dealii::Tensor<1, dim, Number> &x, const dealii::Tensor<2, dim, Number> &r, Domains &found) const
       {
         // Rows of r are half edges, so columns of its inverse the dual vectors.
         const auto dual = invert(r);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          found.x[d]      = (x[d] - lattice->origin[d]) * lattice->inverse_h[d];
-          found.lowest[d] = 1e300;
-          found.extent[d] = -1e300;
-        }
-        Number rows[8];
+        Number     highest[dim];
         for (unsigned int c = 0; c < n_corners; ++c)
         {
           const auto coordinate = Corners<dim>::coordinates(*lattice, x + Corners<dim>::arm(r, c));
-          Number     weight[dim][2];
-          Number    *share = rows + (c % 2) * 4;
-          share[0]         = 1. / n_corners;
-          share[3]         = 0.;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            const Number first = floor(coordinate[d]);
-            store_integers(first, found.first[c][d]);
-            weight[d][1]    = coordinate[d] - first;
-            weight[d][0]    = 1. - weight[d][1];
-            found.lowest[d] = min(found.lowest[d], first);
-            found.extent[d] = max(found.extent[d], first);
-            share[1 + d]    = 0.;
+            found.corner[c][d] = coordinate[d];
+            found.lowest[d]    = c == 0 ? coordinate[d] : min(found.lowest[d], coordinate[d]);
+            highest[d]         = c == 0 ? coordinate[d] : max(highest[d], coordinate[d]);
+            found.gradient[c][d] = 0.;
             for (unsigned int e = 0; e < dim; ++e)
-              share[1 + d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
+              found.gradient[c][d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
           }
-          for (unsigned int i = 0; i < n_hats; ++i)
-          {
-            found.hat[c][i] = weight[0][i & 1];
-            for (unsigned int d = 1; d < dim; ++d)
-              found.hat[c][i] *= weight[d][i >> d & 1];
-          }
-          if (c % 2 == 1)
-            lanes_to_vectors<native_width>(rows, found.share[c / 2]);
         }
+        const auto greatest = [](const Number &value) {
+          return static_cast<int>(*std::max_element(value.data(), value.data() + native_width));
+        };
+        found.largest_extent = 0;
         for (unsigned int d = 0; d < dim; ++d)
-          found.extent[d] += 2. - found.lowest[d];
+        {
+          found.x[d]      = (x[d] - lattice->origin[d]) * lattice->inverse_h[d];
+          found.lowest[d] = floor(found.lowest[d]);
+          found.extent[d] = 1. - found.lowest[d] - floor(-highest[d]); // with the ceiling of the highest
+          found.n_layers       = greatest(found.extent[d]);
+          found.largest_extent = std::max(found.largest_extent, found.n_layers);
+        }
       }
 
-      /** Lists the nodes of one particle; those of several corners once, if the domain is no larger than a few cells. */
-      void merge(const Batch &found, const unsigned int l, Stencil<dim> &stencil) const
+      /** The hats of some nodes of a line at lattice coordinate t after the first. */
+      static Number hat(const Number &t, const unsigned int k)
       {
-        std::array<int, dim> lowest, extent;
-        bool                 is_small = true;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          lowest[d] = static_cast<int>(found.lowest[d].data()[l]);
-          extent[d] = static_cast<int>(found.extent[d].data()[l]);
-          is_small  = is_small && extent[d] <= max_extent;
-        }
-        stencil.reserve(is_small ? max_merged : n_corners * n_hats);
-        stencil.is_at_slip_wall.fill(false);
-        Four sums[max_merged];
-        if (is_small)
-        {
-          std::array<int, dim> stride;
-          int                  size = 1;
-          for (unsigned int d = 0; d < dim; ++d)
-          {
-            stride[d] = size;
-            size *= extent[d];
-          }
-          for (int i = 0; i < size; ++i)
-            sums[i] = 0.;
-          for (unsigned int c = 0; c < n_corners; ++c)
-          {
-            int place = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              place += (found.first[c][d][l] - lowest[d]) * stride[d];
-            add_hats(found, c, l, stride, sums + place);
-          }
-          list(found, l, lowest, extent, sums, stencil);
-          return;
-        }
-        const auto cell = std::array<int, 3>{{2, 2, dim == 3 ? 2 : 1}};
+        return max(1. - abs(t - Number(1. * k)), Number(0.));
+      }
+
+      /**
+       * Lists the nodes of boxes, those of several corners once: sums over corners with a domain in each lane, then
+       * transposed. Nodes of the box that no corner sees have weight 0; those beyond a domain's last layer are left out.
+       */
+      void list_boxes(const Domains &found, const unsigned int size, Stencil<dim> *stencils) const
+      {
+        constexpr unsigned int last = dim - 1;
+        const unsigned int     n_layers = found.n_layers, n_listed = n_layers * n_inner;
+        Number                 inner[n_corners][n_inner], outer[usual_extent][n_corners][1 + dim];
         for (unsigned int c = 0; c < n_corners; ++c)
         {
-          std::array<int, dim> first, stride, extents;
+          Number along[dim][usual_extent];
           for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int k = 0; k < usual_extent; ++k)
+              along[d][k] = hat(found.corner[c][d] - found.lowest[d], k);
+          for (unsigned int i = 0; i < n_inner; ++i)
+            inner[c][i] = dim == 2 ? along[0][i] : along[0][i % usual_extent] * along[1][i / usual_extent];
+          for (unsigned int k = 0; k < n_layers; ++k)
           {
-            first[d]   = found.first[c][d][l];
-            stride[d]  = 1 << d;
-            extents[d] = cell[d];
+            outer[k][c][0] = (1. / n_corners) * along[last][k];
+            for (unsigned int d = 0; d < dim; ++d)
+              outer[k][c][1 + d] = along[last][k] * found.gradient[c][d];
           }
-          for (unsigned int i = 0; i < n_hats; ++i)
-            sums[i] = 0.;
-          add_hats(found, c, l, stride, sums);
-          list(found, l, first, extents, sums, stencil);
         }
-      }
+        Number sums[1 + dim][padded];
+        for (unsigned int i = n_listed; i < (n_listed + 7) / 8 * 8; ++i)
+          for (unsigned int j = 0; j <= dim; ++j)
+            sums[j][i] = 0.;
+        for (unsigned int k = 0; k < n_layers; ++k)
+          for (unsigned int i = 0; i < n_inner; i += usual_extent)
+            add_corners(inner, outer[k], i, k * n_inner + i, sums);
 
-      /** Adds what corner c gives to the nodes of its cell, the first of which is at `sums`. */
-      [[gnu::always_inline]] static void add_hats(const Batch &found, const unsigned int c, const unsigned int l,
-                                                  const std::array<int, dim> &stride, Four *sums)
-      {
-        const Four share = Four::load(found.share[c / 2][l].data() + c % 2 * 4);
-        for (unsigned int i = 0; i < n_hats; ++i)
-        {
-          int place = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            place += (i >> d & 1) * stride[d];
-          sums[place] += found.hat[c][i].data()[l] * share;
-        }
-      }
-
-      /** Appends a box of nodes to the list, x running fastest. */
-      [[gnu::always_inline]] void list(const Batch &found, const unsigned int l, const std::array<int, dim> &lowest,
-                                       const std::array<int, dim> &extent, const Four *sums,
-                                       Stencil<dim> &stencil) const
-      {
-        double offset[dim];
+        alignas(64) int lowest[dim][native_width], extent[native_width];
         for (unsigned int d = 0; d < dim; ++d)
-          offset[d] = lowest[d] - found.x[d].data()[l];
-        const int place = lattice->table_index(lowest);
-        for (int c = 0; c < (dim == 3 ? extent[dim - 1] : 1); ++c)
-          for (int b = 0; b < extent[1]; ++b)
-            for (int a = 0; a < extent[0]; ++a)
+          store_integers(found.lowest[d], lowest[d]);
+        store_integers(found.extent[last], extent);
+        for (unsigned int l = 0; l < size; ++l)
+        {
+          stencils[l].reserve(padded);
+          stencils[l].is_at_slip_wall.fill(false);
+          stencils[l].size = extent[l] * n_inner;
+          typename Lattice<dim>::Index first;
+          for (unsigned int d = 0; d < dim; ++d)
+            first[d] = lowest[d][l];
+          list_places(first, found, l, stencils[l]);
+        }
+        for (unsigned int j = 0; j <= dim; ++j)
+          for (unsigned int i = 0; i < n_listed; i += 8)
+          {
+            Simd<8> of_nodes[native_width];
+            lanes_to_vectors<native_width>(reinterpret_cast<const Number(&)[8]>(sums[j][i]), of_nodes);
+            for (unsigned int l = 0; l < size; ++l)
+              of_nodes[l].store((j == 0 ? stencils[l].weight : stencils[l].gradient[j - 1]) + i);
+          }
+      }
+
+      /** What all corners give to a line of nodes, in registers. */
+      [[gnu::always_inline]] static void add_corners(const Number (&inner)[n_corners][n_inner],
+                                                     const Number (&outer)[n_corners][1 + dim], const unsigned int i,
+                                                     const unsigned int node, Number (&sums)[1 + dim][padded])
+      {
+        Number sum[usual_extent][1 + dim];
+        for (auto &of_node : sum)
+          for (Number &number : of_node)
+            number = 0.;
+        for (unsigned int c = 0; c < n_corners; ++c)
+          for (unsigned int a = 0; a < usual_extent; ++a)
+            for (unsigned int j = 0; j <= dim; ++j)
+              sum[a][j] += inner[c][i + a] * outer[c][j];
+        for (unsigned int a = 0; a < usual_extent; ++a)
+          for (unsigned int j = 0; j <= dim; ++j)
+            sums[j][node + a] = sum[a][j];
+      }
+
+      /** The places and offsets of a box of usual extent, x running fastest. */
+      void list_places(const typename Lattice<dim>::Index &first, const Domains &found, const unsigned int l,
+                       Stencil<dim> &stencil) const
+      {
+        const unsigned int place = lattice->table_index(first);
+        unsigned int *places = stencil.place.data();
+#pragma GCC ivdep
+        for (unsigned int i = 0; i < padded; ++i)
+          places[i] = place + place_in_box[i];
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Simd<8> offset = (first[d] - found.x[d].data()[l]) * lattice->h[d];
+          for (unsigned int i = 0; i < stencil.size; i += 8)
+            (offset + Simd<8>::load(offset_in_box[d] + i)).store(stencil.offset[d] + i);
+        }
+      }
+
+      /** Lists the nodes of each corner by themselves: of domains that are stretched over more than a few cells. */
+      void list_corners(const Domains &found, const unsigned int l, Stencil<dim> &stencil) const
+      {
+        stencil.reserve(n_corners * n_hats);
+        stencil.is_at_slip_wall.fill(false);
+        for (unsigned int c = 0; c < n_corners; ++c)
+          for (unsigned int i = 0; i < n_hats; ++i)
+          {
+            double                       weight = 1;
+            typename Lattice<dim>::Index index;
+            for (unsigned int d = 0; d < dim; ++d)
             {
-              const double *numbers = (sums++)->data();
-              // Nodes of the box that no corner sees, among them those beyond the domain.
-              if (numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0 && numbers[3] == 0)
-                continue;
-              const unsigned int k = stencil.size++;
-              const int          index[3] = {a, b, c};
-              stencil.place[k]  = place + a + b * lattice->stride[1] + (dim == 3 ? c * lattice->stride[dim - 1] : 0);
-              stencil.weight[k] = numbers[0];
-              for (unsigned int d = 0; d < dim; ++d)
-              {
-                stencil.offset[d][k]   = (offset[d] + index[d]) * lattice->h[d];
-                stencil.gradient[d][k] = numbers[1 + d];
-              }
+              const double x = found.corner[c][d].data()[l], lower = std::floor(x);
+              const bool   is_upper = i >> d & 1;
+              weight *= is_upper ? x - lower : 1 - (x - lower);
+              index[d] = static_cast<int>(lower) + is_upper;
             }
+            if (weight == 0) // perhaps beyond the domain
+              continue;
+            const unsigned int k = stencil.size++;
+            stencil.place[k]     = lattice->table_index(index);
+            stencil.weight[k]    = weight / n_corners;
+            for (unsigned int d = 0; d < dim; ++d)
+            {
+              stencil.offset[d][k]   = (index[d] - found.x[d].data()[l]) * lattice->h[d];
+              stencil.gradient[d][k] = weight * found.gradient[c][d].data()[l];
+            }
+          }
       }
 
       static dealii::Tensor<2, dim, Number> invert(const dealii::Tensor<2, dim, Number> &r)
@@ -227,6 +269,8 @@ namespace Talus
 
       const Lattice<dim> *lattice    = nullptr;
       unsigned int        half_edges = 0, n_layers = 2;
+      unsigned int        place_in_box[padded];       // of a box's nodes, after the first
+      double              offset_in_box[dim][padded]; // [length]
     };
 
     const RegisterDimensions<Kernel, Cpdi> registration(

@@ -57,18 +57,47 @@ namespace Talus
         is_outside = is_outside | !(lower >= Number(-tolerance) & upper <= Number(lattice.n_cells[d] + tolerance));
       }
       if (any(is_outside))
+      {
         for (unsigned int l = 0; l < batch.size(); ++l)
           if (is_outside[l])
             outside = std::min(outside, batch.p + l);
+      }
+      else if (!are_open(lattice, x, r))
+        corners.for_each(lattice, reach.shift, batch.p, batch.p + batch.size(),
+                         [&](const unsigned int, const auto &index) {
+                           if (!lattice.is_in_table(index) || !box->coverage[lattice.table_index(index)])
+                             needs_synchronise = true;
+                           else if (!is_open[lattice.table_index(index)])
+                             needs_activation = true;
+                         });
     });
-    if (outside != none)
-      return;
-    corners.for_each(lattice, reach.shift, begin, end, [&](const unsigned int, const auto &index) {
-      if (!lattice.is_in_table(index) || !box->coverage[lattice.table_index(index)])
-        needs_synchronise = true;
-      else if (!is_open[lattice.table_index(index)])
-        needs_activation = true;
-    });
+  }
+
+  template <int dim>
+  template <class Vector, class Matrix>
+  bool Particles<dim>::are_open(const Lattice<dim> &lattice, const Vector &x, const Matrix &r) const
+  {
+    using Number  = Simd<native_width>;
+    char are_open = 1;
+    for (unsigned int c = 0; c < Corners<dim>::n; ++c)
+    {
+      const auto coordinate = Corners<dim>::coordinates(lattice, x + Corners<dim>::arm(r, c));
+      Number     place      = 0.; // in the tables, a whole number below 2^31
+      auto       is_beyond  = Number(1.) < Number(0.);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Number index = floor(coordinate[d] - Number(reach.shift)) - Number(lattice.first[d]);
+        is_beyond          = is_beyond | (index < Number(0.)) | (index >= Number(lattice.extent[d]));
+        place += index * Number(lattice.stride[d]);
+      }
+      if (any(is_beyond))
+        return false;
+      alignas(64) int places[native_width];
+      store_integers(place, places);
+      for (const int at : places)
+        are_open &= is_open[at];
+    }
+    return are_open != 0;
   }
 
   template <int dim>

@@ -31,7 +31,6 @@ namespace Talus
     smoothing(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->choose(parameters);
-    kernel->attach(grid);
     build_bodies(parameters);
     build_conditions(parameters);
     kernel->add_fields(particles);

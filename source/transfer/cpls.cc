@@ -94,8 +94,8 @@ namespace Talus
 
       static void add(Domains &domains, const unsigned int size, const Lattice<dim> &lattice, Imls<dim, 1> &fit)
       {
-        if (domains.find(lattice))
-          domains.add(lattice, size, fit.numbers());
+        if (domains.find(lattice, size))
+          domains.add(lattice, fit.numbers());
         else
           add_points(domains, size, lattice, fit);
       }

@@ -124,6 +124,16 @@ namespace
         for (int l = 0; l < width; ++l)
           error += back[i][l] != rows[i][l];
       check(name + "transposes", error, 0.5);
+      const Simd<8> sums = sums_of_lanes<width>(rows); // of whole numbers, exact
+      error              = 0;
+      for (int i = 0; i < 8; ++i)
+      {
+        double expected = 0;
+        for (int l = 0; l < width; ++l)
+          expected += rows[i][l];
+        error += sums[i] != expected;
+      }
+      check(name + "sums of lanes", error, 0.5);
     }
 
     {

@@ -195,7 +195,9 @@ void imls_domains()
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int l = 0; l < native_width; ++l)
       {
-        const double centre = uniform(random) * lattice.n_cells[d];
+        // In half of the repetitions they lie together.
+        const double centre = (l > 0 && repetition % 4 < 2 ? domains.point[0][d][0] + 0.2 * uniform(random) :
+                                                             uniform(random) * lattice.n_cells[d]);
         for (unsigned int q = 0; q < n_points; ++q)
           domains.point[q][d].set(l, std::min(std::max(centre + uniform(random) - 0.5, 0.), 1. * lattice.n_cells[d]));
         domains.value[d].set(l, uniform(random));
@@ -215,8 +217,8 @@ void imls_domains()
       }
     if (!is_local)
       continue;
-    is_short = is_short && domains.find(lattice);
-    domains.add(lattice, size, together.numbers());
+    is_short = is_short && domains.find(lattice, size);
+    domains.add(lattice, together.numbers());
     for (unsigned int l = 0; l < size; ++l)
       for (const auto &point : domains.point)
       {

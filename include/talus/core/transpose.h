@@ -35,6 +35,21 @@ namespace Talus
         for (int i = 0; i < 4; ++i)
           exchange<4>(rows[i], rows[i + 4], std::make_index_sequence<n>());
     }
+
+    /** Adds the halves of the lanes of n rows, and the quarters, ...: row 0 then holds the sum of each row's lanes. */
+    template <int n, int d, typename Part>
+    [[gnu::always_inline]] inline void fold_rows(Part *rows)
+    {
+      if constexpr (d < n)
+      {
+        for (int i = 0; i < n; i += 2 * d)
+        {
+          exchange<d>(rows[i], rows[i + d], std::make_index_sequence<n>());
+          rows[i] += rows[i + d];
+        }
+        fold_rows<n, 2 * d>(rows);
+      }
+    }
   } // namespace internal
 
   /** From eight numbers of `width` particles, side by side, to one vector of eight for each particle. */
@@ -51,6 +66,23 @@ namespace Talus
       for (int l = 0; l < width; ++l)
         std::memcpy(reinterpret_cast<char *>(columns[l].part) + block * sizeof(part[l]), &part[l], sizeof(part[l]));
     }
+  }
+
+  /** The sums over the lanes of eight registers, in one vector: what adding all columns of lanes_to_vectors() gives. */
+  template <int width>
+  [[gnu::always_inline]] inline Simd<8> sums_of_lanes(const Simd<width> (&rows)[8])
+  {
+    static_assert(width <= native_width, "a batch must fit a register");
+    Simd<8> sums;
+    for (int block = 0; block < 8 / width; ++block)
+    {
+      typename Simd<width>::Part part[width];
+      for (int i = 0; i < width; ++i)
+        part[i] = rows[block * width + i].part[0];
+      internal::fold_rows<width, 1>(part);
+      std::memcpy(reinterpret_cast<char *>(sums.part) + block * sizeof(part[0]), &part[0], sizeof(part[0]));
+    }
+    return sums;
   }
 
   /** The way back: from one vector of n for each of `width` particles to n numbers of all of them. */

@@ -88,6 +88,8 @@ namespace Talus
 
     /** What relocate() does for the corners of the particles' domains. */
     void look_at_corners(const unsigned int begin, const unsigned int end);
+    template <class Vector, class Matrix>
+    bool are_open(const Lattice<dim> &lattice, const Vector &x, const Matrix &half_edges) const;
 
     /** Throws EntryError for a body with a domain that reaches beyond the grid. */
     void check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &bodies);

@@ -55,6 +55,17 @@ namespace Talus
       return Scheme::is_affine ? select(is_force(), Node(gradient), Node(moment)) : Node(gradient);
     }
 
+    /** What of `linear` goes with the offset, and what with the gradient. */
+    Node moment(const unsigned int e, const unsigned int l) const
+    {
+      return Scheme::is_affine ? select(is_force(), Node(0.), linear[e][l]) : Node(0.);
+    }
+
+    Node force(const unsigned int e, const unsigned int l) const
+    {
+      return Scheme::is_affine ? select(is_force(), linear[e][l], Node(0.)) : linear[e][l];
+    }
+
   private:
     static typename Node::Mask is_force()
     {

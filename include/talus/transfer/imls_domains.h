@@ -10,7 +10,8 @@ namespace Talus
    * data at n_points points of each, with the values of an affine field. Moments of the points about a node come first,
    * a product of factors of one axis each; with v_q = A + H z_q, z_q = x_q - x_i, the right-hand sides follow from them,
    * @f[ R_0 = A S_0 + \sum_b H_b S_b , \qquad R_a = A S_a + \sum_b H_b S_{ab} . @f]
-   * The same sums as Imls::add() of all data, in a third of the time.
+   * The same sums as Imls::add() of all data, in a third of the time. Domains that lie together, as those of the
+   * particles of one cell, share one box of nodes, and are summed before they are stored.
    */
   template <int dim, unsigned int n_points>
   class ImlsDomains
@@ -24,10 +25,11 @@ namespace Talus
     Vector value;           // of the field at the first point
     Matrix gradient;        // H: derivatives along the lattice coordinates
 
-    /** False for domains that reach too far: theirs are added point by point. */
-    bool find(const Lattice<dim> &lattice)
+    /** Of the first `size` lanes. False for domains that reach too far: theirs are added point by point. */
+    bool find(const Lattice<dim> &lattice, const unsigned int size)
     {
       Vector lowest, highest;
+      this->size = size;
       for (unsigned int d = 0; d < dim; ++d)
       {
         lowest[d] = highest[d] = point[0][d];
@@ -42,6 +44,7 @@ namespace Talus
         if (n[d] > max_n)
           return false;
       }
+      find_common_box(highest);
       alignas(64) int index[dim][native_width];
       for (unsigned int d = 0; d < dim; ++d)
         store_integers(first[d], index[d]);
@@ -51,6 +54,9 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
           place[l] += (index[d][l] - lattice.first[d]) * lattice.stride[d];
       }
+      Number is_used = 0.;
+      for (unsigned int l = 0; l < size; ++l)
+        is_used.set(l, 1.);
       for (unsigned int q = 0; q < n_points; ++q)
         for (unsigned int d = 0; d < dim; ++d)
           for (int k = 0; k < n[d]; ++k)
@@ -58,15 +64,17 @@ namespace Talus
             const Number z = point[q][d] - first[d] - 1. * k, r = abs(z), far = max(2. - r, Number(0.));
             Number      *f = factor[d][k][q];
             f[0]           = select(r < Number(1.), 2. / 3. + r * r * (0.5 * r - 1.), far * far * far * (1. / 6.));
+            if (d == 0)
+              f[0] *= is_used;
             f[1]           = f[0] * z;
             f[2]           = f[1] * z;
           }
       return true;
     }
 
-    /** Adds the sums of the first `size` lanes to the nodes. */
+    /** Adds the sums to the nodes. */
     template <class Array>
-    void add(const Lattice<dim> &lattice, const unsigned int size, Array &sums) const
+    void add(const Lattice<dim> &lattice, Array &sums) const
     {
       for (int c = 0; c < (dim == 3 ? n[dim - 1] : 1); ++c)
         for (int b = 0; b < n[1]; ++b)
@@ -75,11 +83,33 @@ namespace Talus
           for (unsigned int q = 0; q < n_points; ++q)
             multiply(factor[1][b][q], factor[dim - 1][c][q], across[q]);
           for (int a = 0; a < n[0]; ++a)
-            add_node({{a, b, c}}, across, lattice, size, sums);
+            add_node({{a, b, c}}, across, lattice, sums);
         }
     }
 
   private:
+    /** One box for all, if it is not much larger than those of the lanes. */
+    void find_common_box(const Vector &highest)
+    {
+      int      common[dim];
+      Vector   lower;
+      unsigned n_common = 1, n_apart = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double least = *std::min_element(first[d].data(), first[d].data() + size),
+                     most  = *std::max_element(highest[d].data(), highest[d].data() + size);
+        common[d]          = static_cast<int>(std::floor(most) + 3 - least);
+        lower[d]           = least;
+        n_common *= std::min(common[d], 2 * max_n);
+        n_apart *= n[d];
+      }
+      has_common_box = 3 * n_common <= 4 * n_apart && *std::max_element(common, common + dim) <= max_n;
+      if (!has_common_box)
+        return;
+      first = lower;
+      std::copy_n(common, dim, n);
+    }
+
     static constexpr int          max_n       = 8;
     static constexpr unsigned int n_across    = dim == 2 ? 3 : 6;
     static constexpr unsigned int n_moments   = ImlsBasis<dim, 1>::n_moments;
@@ -125,8 +155,14 @@ namespace Talus
 
     template <class Array>
     void add_node(const std::array<int, 3> &k, const Number (&across)[n_points][n_across], const Lattice<dim> &lattice,
-                  const unsigned int size, Array &sums) const
+                  Array &sums) const
     {
+      int step = k[0] + k[1] * lattice.stride[1];
+      if constexpr (dim == 3)
+        step += k[2] * lattice.stride[2];
+      // Those beyond the domain do not exist.
+      if (has_common_box && lattice.node[place[0] + step] == Lattice<dim>::missing)
+        return;
       Number numbers[8 * n_registers];
       moments(k[0], across, numbers);
       Vector A = value;
@@ -147,15 +183,22 @@ namespace Talus
       for (unsigned int i = n_moments + dim * (dim + 1); i < 8 * n_registers; ++i)
         numbers[i] = 0.;
 
+      if (has_common_box)
+      {
+        double *node = sums.at_place(place[0] + step);
+        for (unsigned int r = 0; r < n_registers; ++r)
+        {
+          const auto added = sums_of_lanes<native_width>(reinterpret_cast<const Number(&)[8]>(numbers[8 * r]));
+          (Simd<8>::load(node + 8 * r) + added).store(node + 8 * r);
+        }
+        return;
+      }
       Simd<8> vectors[n_registers][native_width];
       for (unsigned int r = 0; r < n_registers; ++r)
         lanes_to_vectors<native_width>(reinterpret_cast<const Number(&)[8]>(numbers[8 * r]), vectors[r]);
-      int step = k[0] + k[1] * lattice.stride[1];
-      if constexpr (dim == 3)
-        step += k[2] * lattice.stride[2];
       for (unsigned int l = 0; l < size; ++l)
       {
-        // Nodes that no datum reaches may lie anywhere; those beyond the domain do not exist.
+        // Nodes that no datum reaches may lie anywhere.
         if (!(numbers[0].data()[l] > 0) || lattice.node[place[l] + step] == Lattice<dim>::missing)
           continue;
         double *node = sums.at_place(place[l] + step);
@@ -163,6 +206,9 @@ namespace Talus
           (Simd<8>::load(node + 8 * r) + vectors[r][l]).store(node + 8 * r);
       }
     }
+
+    unsigned int size = 0;
+    bool         has_common_box = false;
 
     Vector first; // lattice index of the first node
     int    n[dim];

@@ -124,20 +124,48 @@ namespace Talus
     static void scatter(const Contribution<dim, Scheme> &add, const unsigned int l, const Stencil<dim> &stencil,
                         Fields &fields)
     {
-      for (unsigned int k = 0; k < stencil.size; ++k)
+      // Copies, which stay in registers: what a node stores might be anything else.
+      const Node          constant = add.constant[l];
+      Node                moment[dim], force[dim];
+      const unsigned int *place  = stencil.place.data();
+      const double       *weight = stencil.weight, *offset[dim], *gradient[dim];
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        const double phi   = stencil.weight[k];
-        Node         value = phi * add.constant[l];
-        for (unsigned int d = 0; d < dim; ++d)
-          value += add.blend(phi * stencil.offset[d][k], stencil.gradient[d][k]) * add.linear[d][l];
-        if (stencil.has_images && stencil.beyond[k] != 0)
-        {
-          fields.count_mirrored(value.data(), stencil.beyond[k]);
-          value *= Node::load(Fields::mirror(stencil.beyond[k]));
-        }
-        double *node = fields.at_place(stencil.place[k]);
-        (Node::load(node) + value).store(node);
+        moment[d]   = add.moment(d, l);
+        force[d]    = add.force(d, l);
+        offset[d]   = stencil.offset[d];
+        gradient[d] = stencil.gradient[d];
       }
+      const auto value = [&](const unsigned int k) {
+        Node at_node = constant;
+        if constexpr (Scheme::is_affine)
+          for (unsigned int d = 0; d < dim; ++d)
+            at_node += offset[d][k] * moment[d];
+        at_node *= weight[k];
+        for (unsigned int d = 0; d < dim; ++d)
+          at_node += gradient[d][k] * force[d];
+        return at_node;
+      };
+      double *const first = fields.at_place(0);
+      if (stencil.has_images)
+        for (unsigned int k = 0; k < stencil.size; ++k)
+        {
+          Node at_node = value(k);
+          if (stencil.beyond[k] != 0)
+          {
+            fields.count_mirrored(at_node.data(), stencil.beyond[k]);
+            at_node *= Node::load(Fields::mirror(stencil.beyond[k]));
+          }
+          add_to(fields.at_place(place[k]), at_node);
+        }
+      else
+        for (unsigned int k = 0, size = stencil.size; k < size; ++k)
+          add_to(first + std::size_t(Fields::stride) * place[k], value(k));
+    }
+
+    [[gnu::always_inline]] static void add_to(double *node, const Node &value)
+    {
+      (Node::load(node) + value).store(node);
     }
 
     /** What the particles of a batch gather: sums of a node's numbers times phi, grad phi and phi offset. */
