@@ -34,6 +34,10 @@ namespace Talus
                         Patterns::List(Patterns::Integer(1), 0, dim));
     this->add_parameter("Ratio", ratio, "Length along x of the first box over that of the second, and so on [1].",
                         this->prm, Patterns::Double(1e-3, 1e3));
+    this->add_parameter("Held boundaries", held_boundaries,
+                        "Parts of the boundary, by name or number, on which the functions of all other nodes shall "
+                        "vanish, as those of P1 do: walls whose nodes conditions hold.",
+                        this->prm, Patterns::List(Patterns::Anything()));
     this->add_parameter("Spacing", spacings,
                         "What counts as a cell's edge where bodies and surfaces are filled by points per cell "
                         "[length], one number or one per direction; empty: that of the boxes.",
@@ -88,6 +92,7 @@ namespace Talus
   {
     this->partition.create([this] { return read(); });
     number_nodes();
+    hold_boundaries();
     find_extent();
     is_open.assign(mesh().n_cells(), 0);
     find_open_cells();
@@ -112,6 +117,26 @@ namespace Talus
     this->nodes.reinit(owned, known, communicator, places, mesh().n_nodes());
     fields.reinit(this->nodes);
     this->activate_all();
+  }
+
+  template <int dim>
+  void SimplexGrid<dim>::hold_boundaries()
+  {
+    if (held_boundaries.empty())
+      return;
+    std::vector<char> is_held(this->nodes.n_local(), 0);
+    try
+    {
+      for (const std::string &name : held_boundaries)
+        for (const unsigned int node : boundary(name).nodes)
+          is_held[node] = 1;
+    }
+    catch (const InputError &error)
+    {
+      throw EntryError(this->get_section_name(), "Held boundaries", error.message);
+    }
+    this->spread(is_held);
+    this->partition.mesh.hold(by_place(is_held));
   }
 
   template <int dim>

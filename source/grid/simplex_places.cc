@@ -142,6 +142,16 @@ namespace Talus
   }
 
   template <int dim>
+  Point<dim> SimplexGrid<dim>::unit_point(const CellIterator &, const Point<dim> &x) const
+  {
+    const auto B = mesh().barycentric(this->partition.find_here(x.begin_raw()), x.begin_raw());
+    Point<dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = B[d + 1];
+    return result;
+  }
+
+  template <int dim>
   dealii::BoundingBox<dim> SimplexGrid<dim>::cell_box(const CellIterator &cell) const
   {
     dealii::BoundingBox<dim> box = cell->bounding_box();
@@ -228,6 +238,7 @@ namespace Talus
   template void                      SimplexGrid<dim>::find_open_cells();                                              \
   template bool                      SimplexGrid<dim>::contains(const Tensor<1, dim> &) const;                         \
   template std::size_t               SimplexGrid<dim>::cell_number(const Point<dim> &) const;                          \
+  template Point<dim>                SimplexGrid<dim>::unit_point(const CellIterator &, const Point<dim> &) const;     \
   template dealii::BoundingBox<dim>  SimplexGrid<dim>::cell_box(const CellIterator &) const;                           \
   template std::vector<bool>         SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &) const;              \
   template BoundaryPart<dim>         SimplexGrid<dim>::boundary(const std::string &) const;

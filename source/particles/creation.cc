@@ -88,7 +88,7 @@ namespace Talus
           visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
             const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
-            home->insert_particle(location, grid.mapping.transform_real_to_unit_cell(cell, location), body.first_id + i,
+            home->insert_particle(location, grid.unit_point(cell, location), body.first_id + i,
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];

@@ -156,7 +156,7 @@ namespace
 template <int dim>
 void reproduction()
 {
-  for (const auto &[name, mesh] : meshes<dim>())
+  for (const auto &named : meshes<dim>())
   {
     check_reproduction(name + ", P1", mesh, p1_kernel(mesh));
     for (const auto &kernels : {paper_kernels(mesh), c1_kernels(mesh)})
@@ -172,7 +172,7 @@ void reproduction()
 template <int dim>
 void continuity()
 {
-  for (const auto &[name, mesh] : meshes<dim>())
+  for (const auto &named : meshes<dim>())
   {
     check(name + ", P1: jump of phi", jumps(mesh, p1_kernel(mesh)).first, 1e-12);
     for (const auto &kernels : {paper_kernels(mesh), c1_kernels(mesh)})
@@ -198,7 +198,7 @@ void ablation()
 template <int dim>
 void true_gradient()
 {
-  for (const auto &[name, mesh] : meshes<dim>())
+  for (const auto &named : meshes<dim>())
     for (const auto &kernel : c1_kernels(mesh))
     {
       double       error = 0;
@@ -260,6 +260,42 @@ void line()
   }
 }
 
+/** Where the nodes of a wall are held, the functions of all others vanish on it, whatever the mesh; the sums remain. */
+template <int dim>
+void held()
+{
+  for (const auto &[name, of_name] : meshes<dim>())
+  {
+    Mesh<dim>         mesh = of_name;
+    std::vector<char> is_held(mesh.n_nodes());
+    for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
+      is_held[v] = mesh.position[v][0] < 1e-9;
+    mesh.hold(is_held);
+    for (const auto &kernel : {umls_kernel<CubicWeight>("UMLS", mesh, {local, true}),
+                               c1_kernel<CubicWeight>("C1 UMLS", mesh, {local, true})})
+    {
+      double unity = 0, linear = 0, at_wall = 0;
+      for_points(mesh, 2, [&](const unsigned int c, const Coordinates<dim> &x) {
+        const Values<dim> at(mesh, kernel, c, x);
+        double            sum = -1, first = 0;
+        for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
+        {
+          sum += at.weight[v];
+          for (unsigned int d = 0; d < dim; ++d)
+            first += at.weight[v] * (mesh.position[v][d] - x[d]);
+          if (x[0] < 1e-12 && !is_held[v])
+            raise(at_wall, at.weight[v]);
+        }
+        raise(unity, sum);
+        raise(linear, first);
+      });
+      check(name + ", " + kernel.name + ": functions at the wall", at_wall, 1e-6);
+      check(name + ", " + kernel.name + ": partition of unity", unity, 1e-6);
+      check(name + ", " + kernel.name + ": linear fields", linear, 1e-6);
+    }
+  }
+}
+
 template void reproduction<2>();
 template void reproduction<3>();
 template void continuity<1>();
@@ -270,3 +306,5 @@ template void ablation<3>();
 template void true_gradient<1>();
 template void true_gradient<2>();
 template void true_gradient<3>();
+template void held<2>();
+template void held<3>();

@@ -9,6 +9,7 @@ DECLARE(reproduction)
 DECLARE(continuity)
 DECLARE(ablation)
 DECLARE(true_gradient)
+DECLARE(held)
 DECLARE(mesh_file)
 DECLARE(location)
 DECLARE(many_particles)
@@ -43,6 +44,8 @@ int main(int argc, char **argv)
                     {"true gradient 2D", true_gradient<2>},
                     {"true gradient 3D", true_gradient<3>},
                     {"line", line},
+                    {"held 2D", held<2>},
+                    {"held 3D", held<3>},
                     {"mesh file 2D", mesh_file<2>},
                     {"mesh file 3D", mesh_file<3>},
                     {"wrong meshes", wrong_meshes},

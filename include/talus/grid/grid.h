@@ -97,6 +97,12 @@ namespace Talus
     /** A number for the cell that holds a point, the same for all points in it and for no others nearby. */
     virtual std::size_t cell_number(const dealii::Point<dim> &x) const = 0;
 
+    /** x on the unit cell. */
+    virtual dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &x) const
+    {
+      return mapping.transform_real_to_unit_cell(cell, x);
+    }
+
     /** x, moved off the faces of its cell, on which deal.II may lose a particle. */
     virtual dealii::Point<dim> inside_cell(const dealii::Point<dim> &x) const { return x; }
 

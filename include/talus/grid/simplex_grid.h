@@ -51,6 +51,9 @@ namespace Talus
     void                activate(const std::vector<char> &is_used) override;
     bool                is_active_around(const unsigned int place) const override { return is_open[place] != 0; }
 
+    /** Its barycentric coordinates. */
+    dealii::Point<dim> unit_point(const CellIterator &cell, const dealii::Point<dim> &x) const override;
+
     dealii::Point<dim> node_position(const unsigned int node) const override;
     bool               contains(const dealii::Tensor<1, dim> &x) const override;
 
@@ -74,6 +77,7 @@ namespace Talus
 
   private:
     MeshInput<dim> read() const;
+    void           hold_boundaries();
     void           number_nodes();
 
     /** Marks of nodes in the order of the nodes' numbers, from those in the order of the mesh, and the other way. */
@@ -90,6 +94,7 @@ namespace Talus
     std::string               file;
     std::vector<double>       lower_corner, upper_corner, spacings;
     std::vector<unsigned int> cell_counts;
+    std::vector<std::string>  held_boundaries;
     double                    ratio = 1;
   };
 

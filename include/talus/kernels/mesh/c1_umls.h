@@ -47,6 +47,7 @@ namespace Talus
               grad_eta[d][u] += shares.slope[u][c] * grad_B[c][d];
           }
         }
+        eta   = at_least_shares(mesh, cell, eta);
         gamma = subset_sums<dim>(eta);
         s     = support_length(mesh, cell, eta, options);
         for (unsigned int d = 0; d < dim; ++d)

@@ -5,6 +5,8 @@
 #include <talus/kernels/stencil.h>
 #include <talus/kernels/mesh/weights.h>
 
+#include <algorithm>
+
 namespace Talus
 {
   /** What can be chosen of kernels by moving least squares on meshes. */
@@ -30,6 +32,17 @@ namespace Talus
         sums[set | 1 << u] = sums[set] + share[u];
     sums.back() = 1;
     return sums;
+  }
+
+  /** The shares of a cell's vertices, none of them zero where nodes are held: their moments would be singular. */
+  template <int dim>
+  std::array<double, dim + 1> at_least_shares(const Mesh<dim> &mesh, const unsigned int cell,
+                                              std::array<double, dim + 1> share)
+  {
+    if (mesh.has_held(cell))
+      for (double &s : share)
+        s = std::max(s, mesh.least_share);
+    return share;
   }
 
   /**
@@ -90,7 +103,7 @@ namespace Talus
     using Lanes               = typename Stencil<dim>::Lanes;
     constexpr unsigned int w8 = Stencil<dim>::width;
 
-    const auto   B         = mesh.barycentric(cell, x);
+    const auto   B         = at_least_shares(mesh, cell, mesh.barycentric(cell, x));
     const double inverse_s = 1 / support_length(mesh, cell, B, options);
     const auto   gamma     = subset_sums<dim>(B);
     const auto   to =
