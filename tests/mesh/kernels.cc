@@ -156,7 +156,7 @@ namespace
 template <int dim>
 void reproduction()
 {
-  for (const auto &named : meshes<dim>())
+  for (const auto &[name, mesh] : meshes<dim>())
   {
     check_reproduction(name + ", P1", mesh, p1_kernel(mesh));
     for (const auto &kernels : {paper_kernels(mesh), c1_kernels(mesh)})
@@ -172,7 +172,7 @@ void reproduction()
 template <int dim>
 void continuity()
 {
-  for (const auto &named : meshes<dim>())
+  for (const auto &[name, mesh] : meshes<dim>())
   {
     check(name + ", P1: jump of phi", jumps(mesh, p1_kernel(mesh)).first, 1e-12);
     for (const auto &kernels : {paper_kernels(mesh), c1_kernels(mesh)})
@@ -198,7 +198,7 @@ void ablation()
 template <int dim>
 void true_gradient()
 {
-  for (const auto &named : meshes<dim>())
+  for (const auto &[name, mesh] : meshes<dim>())
     for (const auto &kernel : c1_kernels(mesh))
     {
       double       error = 0;
