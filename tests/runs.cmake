@@ -60,6 +60,8 @@ talus_compare(balls_3d CPDI_TPIC "${ranks}" "Kernel/Type = CPDI" "Kernel/Layers 
 talus_compare(balls_3d CPLS "1;2" "Kernel/Type = CPDI" "Kernel/Layers = 1" "Transfer/Type = CPLS" "Run/End time = 0.4")
 talus_compare(stretch_2d CPDI_TPIC "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = TPIC")
 talus_compare(stretch_2d CPLS "${ranks}" "Kernel/Type = CPDI" "Transfer/Type = CPLS")
+talus_compare(balls_2d MUSL "${ranks}" "Run/MUSL = true" "Run/Mass cutoff = 1e-4" "Transfer/Type = FLIP")
+talus_compare(balls_3d MUSL "${ranks}" "Run/MUSL = true")
 foreach(pool pool_2d pool_3d)
   talus_compare(${pool} projection_TPIC "${ranks}"
     "Kernel/Boundary treatment = WLS separable" "Transfer/Slip projection = true")

@@ -23,6 +23,9 @@ namespace Talus
     add_parameter("Softening rate", softening_rate,
                   "Of exponential softening: eta in exp(-eta times equivalent plastic strain) [1].", prm,
                   Patterns::Double());
+    add_parameter("Strength norm", norm,
+                  "What of the deviator s the entries bound: von Mises: sqrt(3/2) |s|, tension; deviator: |s|.", prm,
+                  Patterns::Selection("von Mises|deviator"));
   }
 
   void VonMises::parse_parameters(ParameterHandler &prm)
@@ -43,9 +46,10 @@ namespace Talus
       check(softening_rate > 0, "Softening rate",
             "it must be positive. Use 'Hardening = perfect' for a constant yield stress.");
       std::ostringstream greatest;
-      greatest << 3 * shear_modulus() / (yield_stress - residual_stress);
+      const double       range = in_tension() * (yield_stress - residual_stress);
+      greatest << 3 * shear_modulus() / range;
       check(
-        softening_rate * (yield_stress - residual_stress) < 3 * shear_modulus(), "Softening rate",
+        softening_rate * range < 3 * shear_modulus(), "Softening rate",
         "the yield stress falls faster than the stress can follow (3 G), which has no unique answer. Lower it below " +
           greatest.str() + ", or raise Young's modulus.");
     }
@@ -53,69 +57,6 @@ namespace Talus
 
   namespace
   {
-    struct Perfect
-    {
-      double yield_stress;
-
-      /** The equivalent plastic strain that a trial stress q above the yield stress adds, from 3 G x = q - sigma_Y. */
-      template <typename Number>
-      Number increment(const Number &q, const Number & /* strain */, const double G) const
-      {
-        return (q - yield_stress) / (3 * G);
-      }
-      template <typename Number>
-      Number strength(const Number & /* strain */) const
-      {
-        return yield_stress;
-      }
-    };
-
-    struct Linear
-    {
-      double yield_stress, modulus;
-
-      template <typename Number>
-      Number increment(const Number &q, const Number &strain, const double G) const
-      {
-        return (q - strength(strain)) / (3 * G + modulus);
-      }
-      template <typename Number>
-      Number strength(const Number &strain) const
-      {
-        return yield_stress + modulus * strain;
-      }
-    };
-
-    struct Exponential
-    {
-      double residual, range, rate; // range: initial less residual strength
-
-      /**
-       * Newton's method on g(x) = q - 3 G x - sigma_Y(strain + x), which falls and is concave: from the right of the
-       * root it comes down to it monotonically, and the first step from x = 0 leads there. The halvings of the worst
-       * case, softening at nearly 3 G, need most of the iterations; a usual one takes three.
-       */
-      template <typename Number>
-      Number increment(const Number &q, const Number &strain, const double G) const
-      {
-        Number x = 0.;
-        for (unsigned int i = 0; i < 40; ++i)
-        {
-          const Number drop = range * exp(-rate * (strain + x));
-          const Number g    = q - 3 * G * x - (residual + drop);
-          if (!any(abs(g) > 1e-14 * q))
-            break;
-          x = min(Number(x + g / (3 * G - rate * drop)), Number(q / (3 * G)));
-        }
-        return x;
-      }
-      template <typename Number>
-      Number strength(const Number &strain) const
-      {
-        return residual + range * exp(-rate * strain);
-      }
-    };
-
     template <class Law>
     void radial_return(const MaterialRange &range, const double lambda, const double G, const Law &law)
     {
@@ -142,13 +83,7 @@ namespace Talus
 
   void VonMises::update(const MaterialRange &range) const
   {
-    const double lambda = lame_modulus(), G = shear_modulus();
-    if (hardening == "perfect")
-      radial_return(range, lambda, G, Perfect{yield_stress});
-    else if (hardening == "linear")
-      radial_return(range, lambda, G, Linear{yield_stress, hardening_modulus});
-    else
-      radial_return(range, lambda, G, Exponential{residual_stress, yield_stress - residual_stress, softening_rate});
+    with_hardening([&](const auto &law) { radial_return(range, lame_modulus(), shear_modulus(), law); });
   }
 
   namespace

@@ -97,6 +97,9 @@ namespace Talus
       throw EntryError(get_section_name(), "Initial stress", refusal);
     for (unsigned int c = 0; c < set.n_stress; ++c)
       value(set.stress, c) = stress[c];
+    const auto states = material.initial_states(stress);
+    for (unsigned int k = 0; k < states.size(); ++k)
+      value(set.state_fields[this->material][k], 0) = states[k];
     value(set.volume, 0) = volume;
     value(set.mass, 0)   = volume * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
     if (const auto field = set.find_field(set.half_edges_name))

@@ -4,6 +4,8 @@
 #include <talus/steppers/explicit_step.h>
 #include <talus/steppers/sweep.h>
 
+#include <limits>
+
 namespace Talus
 {
   using namespace dealii;
@@ -15,6 +17,11 @@ namespace Talus
                         Patterns::Double());
     this->add_parameter("Step size", fixed_step_size, "Fixed step size [time]; 0: by the Courant number each step.",
                         this->prm, Patterns::Double(0));
+    this->add_parameter("MUSL", is_musl,
+                        "The velocity gradient is that of the particles' new velocities, scattered once more.");
+    this->add_parameter("Mass cutoff", mass_cutoff,
+                        "Nodes of less than this share of the lightest particle's mass count as empty [1].", this->prm,
+                        Patterns::Double(0, 1));
   }
 
   template <int dim>
@@ -35,12 +42,26 @@ namespace Talus
     relocate         = timing.add("relocate and survey");
     upkeep_section   = timing.add("upkeep");
     smoothing        = timing.add("smoothing of J");
+    musl_section     = timing.add("velocities once more");
 
+    raise_mass_floor(model);
     watch.emplace(model);
     const auto ranges = material_ranges(model.particles, /* dt = */ 0.);
     watch->start(ranges, /* time = */ 0., /* dt = */ 0.);
     watch->look_at(0, model.particles.size());
     return watch->finish(/* displacement = */ 0.);
+  }
+
+  template <int dim>
+  void Explicit<dim>::raise_mass_floor(Model<dim> &model) const
+  {
+    const double *mass     = model.particles.component(model.particles.mass, 0);
+    double        lightest = std::numeric_limits<double>::max();
+    for (unsigned int p = 0; p < model.particles.size(); ++p)
+      lightest = std::min(lightest, mass[p]);
+    lightest = Utilities::MPI::min(lightest, model.grid.communicator);
+    if (model.particles.n_global > 0)
+      model.grid.mass_floor = std::max(model.grid.mass_floor, mass_cutoff * lightest);
   }
 
   template <int dim>
@@ -101,12 +122,20 @@ namespace Talus
     watch->start(ranges, time + dt, dt);
     particles.start_relocation();
 
-    double displacement = 0;
-    Sweep  sweep(*timing);
+    const unsigned int block        = dim == 2 ? 1024 : 512;
+    double             displacement = 0;
+    Sweep              sweep(*timing);
     sweep.add(grid_to_particle, [&](const unsigned int begin, const unsigned int end) {
       displacement =
         std::max(displacement, model.transfer->grid_to_particle(model.grid, *model.kernel, dt, particles, begin, end));
     });
+    if (is_musl)
+    {
+      musl.start(particles);
+      sweep.run(particles.size(), block);
+      const Timing::Scope scope(*timing, musl_section);
+      musl.apply(model, time, dt);
+    }
     sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
       update_stress(particles, model.materials, ranges, begin, end);
     });
@@ -114,7 +143,7 @@ namespace Talus
       particles.relocate(begin, end);
       watch->look_at(begin, end);
     });
-    sweep.run(particles.size(), /* block = */ dim == 2 ? 1024 : 512);
+    sweep.run(particles.size(), block);
 
     const Timing::Scope scope(*timing, relocate);
     model.tractions.finish(particles);

@@ -16,6 +16,7 @@ void text_files();
 void registry();
 void simd();
 void batches();
+void eigen_systems();
 
 int main(int argc, char **argv)
 {
@@ -35,5 +36,6 @@ int main(int argc, char **argv)
                     {"text files", text_files},
                     {"registry", registry},
                     {"simd", simd},
-                    {"batches", batches}});
+                    {"batches", batches},
+                    {"eigen systems", eigen_systems}});
 }

@@ -13,6 +13,9 @@ DECLARE(velocity_update)
 DECLARE(walls)
 DECLARE(activity)
 DECLARE(grid_errors)
+void closed_surfaces();
+void surface_files();
+void surface_errors();
 
 int main(int argc, char **argv)
 {
@@ -36,5 +39,8 @@ int main(int argc, char **argv)
                     {"walls 3D", walls<3>},
                     {"activity 3D", activity<3>},
                     {"errors 2D", grid_errors<2>},
-                    {"errors 3D", grid_errors<3>}});
+                    {"errors 3D", grid_errors<3>},
+                    {"closed surfaces", closed_surfaces},
+                    {"surface files", surface_files},
+                    {"surface errors", surface_errors}});
 }

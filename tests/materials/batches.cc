@@ -84,6 +84,9 @@ void batches()
     {{"softening", "von Mises",
       soft + set("Hardening", "exponential softening") + set("Residual yield stress", "1") +
         set("Softening rate", "20")}},
+    {{"Hencky", "Hencky",
+      elastic + set("Yield stress", "12") + set("Hardening", "exponential softening") +
+        set("Residual yield stress", "1") + set("Softening rate", "5")}},
     {{"sand", "Drucker-Prager",
       elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1")}},
     {{"dry sand", "Drucker-Prager", elastic + set("Friction angle", "35") + set("Dilatancy angle", "10")}},

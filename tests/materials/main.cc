@@ -33,6 +33,20 @@ namespace von_mises_test
   void parameter_errors();
 } // namespace von_mises_test
 
+namespace hencky
+{
+  void uniaxial_strain();
+  void simple_shear();
+  void isochoric();
+  void return_map();
+  void energy();
+  void objectivity();
+  void initial_stress();
+  void wave_speed();
+  void plane_strain();
+  void parameter_errors();
+} // namespace hencky
+
 namespace drucker_prager
 {
   void uniaxial_strain();
@@ -99,6 +113,16 @@ int main(int argc, char **argv)
                     {"von Mises: plane strain limit", von_mises_test::plane_strain_limit},
                     {"von Mises: plane strain", von_mises_test::plane_strain},
                     {"von Mises: parameter errors", von_mises_test::parameter_errors},
+                    {"Hencky: uniaxial strain", hencky::uniaxial_strain},
+                    {"Hencky: simple shear", hencky::simple_shear},
+                    {"Hencky: isochoric", hencky::isochoric},
+                    {"Hencky: return map", hencky::return_map},
+                    {"Hencky: energy", hencky::energy},
+                    {"Hencky: objectivity", hencky::objectivity},
+                    {"Hencky: initial stress", hencky::initial_stress},
+                    {"Hencky: wave speed", hencky::wave_speed},
+                    {"Hencky: plane strain", hencky::plane_strain},
+                    {"Hencky: parameter errors", hencky::parameter_errors},
                     {"Drucker-Prager: uniaxial strain", drucker_prager::uniaxial_strain},
                     {"Drucker-Prager: pure shear", drucker_prager::pure_shear},
                     {"Drucker-Prager: returns", drucker_prager::returns},

@@ -96,7 +96,13 @@ namespace Test
       return s;
     }
 
-    void set_stress(const Tensor<2, 3> &s) { sigma = {{s[0][0], s[1][1], s[2][2], s[0][1], s[0][2], s[1][2]}}; }
+    /** As a body starts with it. */
+    void set_stress(const Tensor<2, 3> &s)
+    {
+      sigma            = {{s[0][0], s[1][1], s[2][2], s[0][1], s[0][2], s[1][2]}};
+      const auto start = material->initial_states(sigma);
+      std::copy(start.begin(), start.end(), states.begin());
+    }
 
     double wave_speed() const
     {

@@ -29,6 +29,7 @@ DECLARE(edge_volumes)
 DECLARE(shifted_lattices)
 DECLARE(overlaps)
 void point_table();
+void bodies_from_surfaces();
 
 int main(int argc, char **argv)
 {
@@ -83,5 +84,6 @@ int main(int argc, char **argv)
                     {"ring errors 2D", ring_errors<2>},
                     {"ring errors 3D", ring_errors<3>},
                     {"clip to grid 2D", clipped<2>},
-                    {"clip to grid 3D", clipped<3>}});
+                    {"clip to grid 3D", clipped<3>},
+                    {"bodies from surfaces", bodies_from_surfaces}});
 }

@@ -11,6 +11,12 @@ template <int dim>
 void explicit_steps();
 template <int dim>
 void strays();
+template <int dim>
+void musl_definition();
+template <int dim>
+void musl_momentum();
+template <int dim>
+void musl_energy();
 
 int main(int argc, char **argv)
 {
@@ -25,5 +31,11 @@ int main(int argc, char **argv)
                     {"explicit steps, 2D", explicit_steps<2>},
                     {"explicit steps, 3D", explicit_steps<3>},
                     {"strays, 2D", strays<2>},
-                    {"strays, 3D", strays<3>}});
+                    {"strays, 3D", strays<3>},
+                    {"MUSL: definition, 2D", musl_definition<2>},
+                    {"MUSL: definition, 3D", musl_definition<3>},
+                    {"MUSL: momentum, 2D", musl_momentum<2>},
+                    {"MUSL: momentum, 3D", musl_momentum<3>},
+                    {"MUSL: energy, 2D", musl_energy<2>},
+                    {"MUSL: energy, 3D", musl_energy<3>}});
 }

@@ -152,6 +152,26 @@ namespace Talus
       damping.apply(held, grid);
     }
 
+    /**
+     * Changes velocities as apply() does, once more in the same step: what conditions and faces know of it stays as it
+     * was.
+     */
+    void repeat(const double time, const double dt, Grid<dim> &grid)
+    {
+      const auto mirrored_force = grid.fields.mirrored_force;
+      held.clear(grid.fields.n_owned());
+      for (auto &condition : conditions)
+      {
+        const auto reaction = condition->reaction, nodal_force = condition->nodal_force;
+        const auto work = condition->work;
+        condition->apply(time, dt, grid, held);
+        condition->reaction    = reaction;
+        condition->nodal_force = nodal_force;
+        condition->work        = work;
+      }
+      grid.fields.mirrored_force = mirrored_force;
+    }
+
     void select(const Grid<dim> &grid)
     {
       for (auto &condition : conditions)

@@ -44,6 +44,12 @@ namespace Talus
     /** Names of the state fields that each particle carries for this material; at most MaterialRange::max_states. */
     virtual std::vector<std::string> state_names() const { return {}; }
 
+    /**
+     * State fields of a particle that starts with a stress (xx, yy, zz, xy, xz, yz), in the order of state_names();
+     * empty: zeros.
+     */
+    virtual std::vector<double> initial_states(const std::array<double, 6> & /* stress */) const { return {}; }
+
     /** Advances stress and state by the step; F and volume are those at its end. */
     virtual void update(const MaterialRange &range) const = 0;
 

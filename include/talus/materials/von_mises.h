@@ -1,6 +1,9 @@
 #pragma once
 
 #include <talus/materials/elastic_material.h>
+#include <talus/materials/hardening.h>
+
+#include <cmath>
 
 namespace Talus
 {
@@ -10,6 +13,7 @@ namespace Talus
    * with the yield stress constant, growing linearly, or falling exponentially:
    * @f[ \sigma_Y = \sigma_0 , \qquad \sigma_0 + H \bar\varepsilon , \qquad
    *     \sigma_r + (\sigma_0 - \sigma_r) \exp(-\eta\bar\varepsilon) . @f]
+   * The entries can give bounds of |s| instead, which are sqrt(2/3) of these.
    * Radial return of the elastic trial stress, Eq. (28): Simo & Hughes (1998), box 3.1.
    * State: equivalent plastic strain [1]. Throws nothing: any increment has a return, since
    * parse_parameters() refuses softening faster than the elastic unloading, 3 G.
@@ -25,8 +29,26 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+  protected:
+    /** Calls `body(law)` with the hardening law that was chosen. */
+    template <class Body>
+    void with_hardening(const Body &body) const
+    {
+      const double scale = in_tension(), initial = scale * yield_stress, residual = scale * residual_stress;
+      if (hardening == "perfect")
+        body(PerfectPlasticity{initial});
+      else if (hardening == "linear")
+        body(LinearHardening{initial, scale * hardening_modulus});
+      else
+        body(ExponentialSoftening{residual, initial - residual, softening_rate});
+    }
+
   private:
+    /** Yield stress in tension over the strength as the entries give it. */
+    double in_tension() const { return norm == "deviator" ? std::sqrt(1.5) : 1.; }
+
     std::string hardening         = "perfect";
+    std::string norm              = "von Mises";
     double      yield_stress      = 1e3; // [stress]
     double      hardening_modulus = 0;   // [stress]
     double      residual_stress   = 0;   // [stress]

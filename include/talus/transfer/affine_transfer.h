@@ -1,7 +1,6 @@
 #pragma once
 
-#include <talus/transfer/batched_loops.h>
-#include <talus/transfer/list_loops.h>
+#include <talus/transfer/loops.h>
 #include <talus/transfer/transfer.h>
 
 namespace Talus
@@ -39,32 +38,16 @@ namespace Talus
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
                           const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) override
     {
-      const auto here = arrays(const_cast<WorkingSet<dim> &>(particles)); // read only
-      const auto form = kernel.lattice_form();
-      if (form && !this->is_plain)
-        std::visit(
-          [&](const auto &function) {
-            Batched<decltype(function)>::particle_to_grid(scheme, function, here, particles.size(), *form, acceleration,
-                                                          time, grid);
-          },
-          form->function);
-      else
-        Lists::particle_to_grid(scheme, here, particles, kernel, acceleration, time, grid);
+      Loops<dim, Scheme<dim>>::particle_to_grid(scheme, arrays(const_cast<WorkingSet<dim> &>(particles)), // read only
+                                                particles, kernel, this->is_plain, acceleration, time, grid);
     }
 
     using Transfer<dim>::grid_to_particle;
     double grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
                             WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end) const override
     {
-      const auto here = arrays(particles);
-      const auto form = kernel.lattice_form();
-      if (form && !this->is_plain)
-        return std::visit(
-          [&](const auto &function) {
-            return Batched<decltype(function)>::grid_to_particle(scheme, function, here, *form, grid, dt, begin, end);
-          },
-          form->function);
-      return Lists::grid_to_particle(scheme, here, particles, kernel, grid, dt, begin, end);
+      return Loops<dim, Scheme<dim>>::grid_to_particle(scheme, arrays(particles), particles, kernel, this->is_plain,
+                                                       grid, dt, begin, end);
     }
 
     dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const override
@@ -74,8 +57,6 @@ namespace Talus
 
   private:
     using Lists = ListLoops<dim, Scheme<dim>>;
-    template <class Function>
-    using Batched = BatchedLoops<dim, Scheme<dim>, std::decay_t<Function>>;
 
     TransferArrays<dim> arrays(WorkingSet<dim> &particles) const
     {

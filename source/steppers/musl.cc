@@ -1,0 +1,45 @@
+#include <talus/steppers/musl.h>
+#include <talus/transfer/velocity_gradient.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void Musl<dim>::start(const Particles<dim> &particles)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double *x = particles.component(particles.position, d);
+      position[d].assign(x, x + particles.size());
+    }
+  }
+
+  template <int dim>
+  void Musl<dim>::exchange_positions(Particles<dim> &particles)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      std::swap_ranges(position[d].begin(), position[d].end(), particles.component(particles.position, d));
+  }
+
+  template <int dim>
+  void Musl<dim>::apply(Model<dim> &model, const double time, const double dt)
+  {
+    Grid<dim> &grid          = model.grid;
+    const auto lost_momentum = grid.lost_momentum;
+    exchange_positions(model.particles);
+    grid.clear();
+    model.transfer->particle_to_grid(model.particles, *model.kernel, model.acceleration, time, grid);
+    grid.fields.add_copies_to_owners();
+    model.transfer->complete(grid);
+    grid.update_velocity(/* dt = */ 0.); // v = p / m
+    model.boundary.repeat(time + dt, dt, grid);
+    grid.fields.update_copies();
+    gather_velocity_gradient(grid, *model.kernel, model.transfer->is_plain, model.particles);
+    exchange_positions(model.particles);
+    grid.lost_momentum = lost_momentum;
+  }
+
+  template class Musl<2>;
+  template class Musl<3>;
+} // namespace Talus
