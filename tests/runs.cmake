@@ -12,7 +12,7 @@ set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)
 set(shear ${PROJECT_SOURCE_DIR}/prm/shear.prm)
 
 # Exit status and message of wrong inputs.
-foreach(group command_line entries numbers functions bodies points surroundings diverged)
+foreach(group command_line entries numbers functions bodies points surroundings meshes diverged)
   foreach(ranks 1 2)
     talus_add_run(errors.${group}.mpirun=${ranks} ${ranks}
       ${CMAKE_CURRENT_SOURCE_DIR}/errors/run.py $<TARGET_FILE:talus> ${shear}
@@ -76,7 +76,18 @@ talus_compare(pool_3d ghost_TPIC "${ranks}" "Kernel/Boundary treatment = ghost n
 talus_compare(disk_2d output "1;2, Output/Step interval = 7, Output/CSV = true, Output/Grid = true"
   "Transfer/Type = APIC")
 
-foreach(file flight_2d rotation_2d flight_3d rotation_3d)
+# On meshes of simplices; the balls slide along named walls.
+set(mesh "Grid/Type = mesh")
+talus_compare(disk_2d UMLS_APIC "${ranks}" ${mesh} "Kernel/Type = UMLS" "Transfer/Type = APIC")
+talus_compare(disk_2d C1_UMLS_FLIP "${ranks}" ${mesh} "Kernel/Type = C1 UMLS" "Transfer/Type = FLIP")
+talus_compare(disk_2d P1_PIC "1;4" ${mesh} "Kernel/Type = P1" "Transfer/Type = PIC" "Run/Courant number = 0.1")
+set(walls "Conditions/walls/Boundary ids = "
+  "Conditions/walls/Boundaries = lower x, upper x, lower y, upper y, lower z, upper z")
+talus_compare(balls_3d UMLS_TPIC "${ranks}" ${mesh} ${walls} "Kernel/Type = UMLS" "Transfer/Type = TPIC")
+talus_compare(balls_3d C1_UMLS_APIC "1;2" ${mesh} ${walls} "Kernel/Type = C1 UMLS" "Transfer/Type = APIC")
+
+foreach(file flight_2d rotation_2d flight_3d rotation_3d
+    flight_mesh_2d rotation_mesh_2d flight_mesh_3d rotation_mesh_3d)
   talus_add_run(conservation.${file} 1 ${CMAKE_CURRENT_SOURCE_DIR}/conservation/run.py $<TARGET_FILE:talus>
     ${CMAKE_CURRENT_SOURCE_DIR}/conservation/${file}.prm ${work}/conservation/${file} 1)
 endforeach()

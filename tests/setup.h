@@ -90,7 +90,7 @@ namespace Test
   {
   public:
     explicit Setup(const std::string &text, const bool half_edges = false) :
-      Text(text), Model<dim>(parameters, MPI_COMM_WORLD)
+      Text(text), Model<dim>(parameters, MPI_COMM_WORLD), grid(box_grid(Model<dim>::grid, "/Grid", "Type"))
     {
       if (half_edges)
         particles.add_half_edges();
@@ -98,12 +98,13 @@ namespace Test
       this->create();
     }
 
-    using Model<dim>::grid;
     using Model<dim>::kernel;
     using Model<dim>::transfer;
     using Model<dim>::particles;
     using Model<dim>::boundary;
     using Model<dim>::acceleration;
+
+    BoxGrid<dim> &grid;
 
     void accelerate(const std::string &text) { acceleration.initialize(text, "/", "Body force"); }
 

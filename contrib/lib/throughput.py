@@ -21,7 +21,7 @@ SILENT = {"Output/Final state": "false", "Output/Time interval": 0, "Output/Step
           "Output/Statistics interval": 2147483647, "Output/Overwrite": "true"}
 
 KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP",
-           "cpdi": "CPDI"}
+           "cpdi": "CPDI", "p1": "P1", "umls": "UMLS", "c1": "C1 UMLS"}
 TRANSFERS = {"flip": "FLIP", "pic": "PIC", "apic": "APIC", "tpic": "TPIC", "cpls": "CPLS"}
 TREATMENTS = {"wls": "WLS", "everywhere": "WLS everywhere", "separable": "WLS separable", "none": "none",
               "mirror": "mirror", "ghost": "ghost nodes"}
@@ -32,7 +32,7 @@ TABLE = ["quadratic-tpic-wls-neo", "quadratic-apic-wls-neo", "quadratic-tpic-wls
          "quadratic-pic-wls-elastic", "quadratic-apic-wls-elastic", "quadratic-tpic-wls-mises", "quadratic-tpic-wls-dp",
          "quadratic-tpic-wls-fluid", "ugimp-tpic-wls-elastic", "cubic-tpic-wls-elastic",
          "quadratic-tpic-everywhere-neo", "quadratic-tpic-mirror-neo", "quadratic-tpic-ghost-neo", "quadratic-tpic-wls-two",
-         "cpdi-tpic-none-neo", "cpdi-cpls-none-neo"]
+         "cpdi-tpic-none-neo", "cpdi-flip-none-neo", "cpdi-cpls-none-neo", "umls-tpic-none-neo", "c1-tpic-none-neo"]
 NOT_STEPS = {"set-up", "output", "finite element reference", "total"}
 FILES = {2: ("prm/elastic_block.prm", 200), 3: ("prm/elastic_block_3d.prm", 40)}
 # Mirrors are at slip walls. Two materials, one in each half, take off together, so that particles change ranks.
@@ -42,6 +42,11 @@ INNER_FLOOR = {2: {"Grid/Lower corner": "-0.02, -0.02", "Conditions/floor/Bounda
                    "Conditions/floor/Half spaces": "y <= 0"},
                3: {"Grid/Lower corner": "-0.1, -0.1, -0.1", "Conditions/floor/Boundary ids": "",
                    "Conditions/floor/Half spaces": "z <= 0"}}
+# The same boxes, each cut into two triangles or six tetrahedra.
+MESH = {2: {"Grid/Type": "mesh", "Grid/Cells": "208, 208", "Conditions/floor/Boundary ids": "",
+            "Conditions/floor/Boundaries": "lower y"},
+        3: {"Grid/Type": "mesh", "Grid/Cells": "48, 48, 48", "Conditions/floor/Boundary ids": "",
+            "Conditions/floor/Boundaries": "lower z"}}
 TWO = {"Materials/Names": "soil, stone", "Materials/stone/Type": "linear elastic", "Bodies/Names": "block, top",
        "Bodies/top/Material": "stone", "Bodies/top/Particles per cell and direction": 2}
 HALVES = {2: {"Bodies/block/Upper corner": "1, 0.5", "Bodies/top/Lower corner": "0, 0.5",
@@ -81,7 +86,9 @@ def table_row(name, dim, steps):
     kernel, transfer, treatment, material = parts
     prm, default_steps = FILES[dim]
     settings = {"Kernel/Type": KERNELS[kernel], "Transfer/Type": TRANSFERS[transfer]}
-    settings.update(INNER_FLOOR[dim] if kernel == "cpdi" else {"Kernel/Boundary treatment": TREATMENTS[treatment]})
+    has_treatment = kernel not in ("cpdi", "p1", "umls", "c1")
+    settings.update({"Kernel/Boundary treatment": TREATMENTS[treatment]} if has_treatment else
+                    INNER_FLOOR[dim] if kernel == "cpdi" else MESH[dim])
     settings.update({f"Materials/soil/{entry}": value for entry, value in MATERIALS[material].items()})
     settings.update(MIRROR if treatment == "mirror" else {})
     settings.update({**TWO, **HALVES[dim]} if material == "two" else {})

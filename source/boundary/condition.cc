@@ -15,6 +15,9 @@ namespace Talus
     add_parameter("Boundary ids", boundary_ids,
                   "Faces of the grid's box: 0, 1 are the lower and upper face in x, 2, 3 in y, 4, 5 in z.", prm,
                   Patterns::List(Patterns::Integer(0, 2 * dim - 1), 0, 2 * dim));
+    add_parameter("Boundaries", boundaries,
+                  "Parts of a mesh's boundary by name or number: its groups of faces ('Type = mesh' in section 'Grid').",
+                  prm, Patterns::List(Patterns::Anything()));
     add_parameter("Half spaces", half_spaces,
                   "All nodes at and beyond walls inside the grid, for instance 'x <= 0.1, y >= 2' [length].", prm,
                   Patterns::List(Patterns::Anything()));
@@ -44,7 +47,7 @@ namespace Talus
     positions.clear();
     for (const std::string &half_space : half_spaces)
       read_half_space(half_space);
-    if (faces.empty() && lower.empty())
+    if (faces.empty() && lower.empty() && boundaries.empty())
       throw EntryError(get_section_name(), "Boundary ids",
                        "the condition acts nowhere. Give boundary ids, half spaces or the corners of a box of nodes.");
     if (!start_time.empty() && !end_time.empty() && !(end_time[0] > start_time[0]))
@@ -92,19 +95,20 @@ namespace Talus
   template <int dim>
   void Condition<dim>::attach(const Grid<dim> &grid)
   {
+    attach_parts(grid);
     all_nodes.clear();
     for (const unsigned int id : boundary_ids)
-      all_nodes.push_back(grid.nodes_on_boundary(id));
+      all_nodes.push_back(grid.boundary(std::to_string(id)).nodes);
     for (unsigned int s = 0; s < positions.size(); ++s)
     {
       const unsigned int face = faces[boundary_ids.size() + s], axis = face / 2;
       // A node on the plane belongs to it, whatever round-off makes of its place.
-      const double margin = 1e-9 * grid.lattice.h[axis];
+      const double margin = 1e-9 * grid.spacing[axis];
       Point<dim>   a = grid.lower, b = grid.upper;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        a[d] -= grid.lattice.h[d];
-        b[d] += grid.lattice.h[d];
+        a[d] -= grid.spacing[d];
+        b[d] += grid.spacing[d];
       }
       (face % 2 == 0 ? b : a)[axis] = positions[s] + (face % 2 == 0 ? margin : -margin);
       all_nodes.push_back(grid.nodes_in_box(a, b));
@@ -130,8 +134,91 @@ namespace Talus
   }
 
   template <int dim>
+  void Condition<dim>::attach_parts(const Grid<dim> &grid)
+  {
+    const bool is_box = dynamic_cast<const BoxGrid<dim> *>(&grid) != nullptr;
+    if (is_box && !boundaries.empty())
+      throw EntryError(get_section_name(), "Boundaries",
+                       "the faces of a box grid have numbers and no names. Give 'Boundary ids'.");
+    if (!is_box && !boundary_ids.empty())
+      throw EntryError(get_section_name(), "Boundary ids",
+                       "these are the faces of a box grid. Give 'Boundaries', names of the mesh's groups of faces.");
+    all_parts.clear();
+    for (const std::string &name : boundaries)
+      try
+      {
+        all_parts.push_back(grid.boundary(name));
+      }
+      catch (const InputError &error)
+      {
+        throw EntryError(get_section_name(), "Boundaries", error.message);
+      }
+  }
+
+  template <int dim>
+  bool Condition<dim>::hold(const unsigned int i, const Tensor<1, dim> &n)
+  {
+    bool was_free = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::abs(n[d]) > 1e-9)
+        was_free = held->hold(i, d) && was_free;
+    return was_free;
+  }
+
+  template <int dim>
+  void Condition<dim>::set(const unsigned int i, const Tensor<1, dim> &n, const double velocity)
+  {
+    using Fields     = NodalFields<dim>;
+    double *node     = grid->fields[i];
+    double  v        = 0, increment = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      v += n[d] * node[Fields::velocity + d];
+      increment += n[d] * node[Fields::increment + d];
+    }
+    const double change  = velocity - v;
+    const double impulse = -node[Fields::mass] * change;
+    reaction += impulse / dt * n;
+    if (hold(i, n))
+      nodal_force += node[Fields::mass] * increment / dt * n;
+    work -= impulse * velocity;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      node[Fields::velocity + d] += change * n[d];
+      node[Fields::increment + d] += change * n[d];
+    }
+  }
+
+  template <int dim>
+  void Condition<dim>::arrest(const unsigned int i, const Tensor<1, dim> &n)
+  {
+    using Fields = NodalFields<dim>;
+    double *node = grid->fields[i];
+    double  v = 0, increment = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      v += n[d] * node[Fields::velocity + d];
+      increment += n[d] * node[Fields::increment + d];
+    }
+    const double impulse = node[Fields::mass] * increment;
+    reaction += impulse / dt * n;
+    if (hold(i, n))
+      nodal_force += impulse / dt * n;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      node[Fields::velocity + d] -= v * n[d];
+      node[Fields::increment + d] -= increment * n[d];
+    }
+  }
+
+  template <int dim>
   void Condition<dim>::select(const Grid<dim> &grid)
   {
+    parts.assign(all_parts.size(), {});
+    for (unsigned int list = 0; list < all_parts.size(); ++list)
+      for (unsigned int k = 0; k < all_parts[list].nodes.size(); ++k)
+        if (grid.is_active[all_parts[list].nodes[k]])
+          parts[list].add(all_parts[list].nodes[k], all_parts[list].normals[k]);
     nodes.assign(all_nodes.size(), {});
     for (unsigned int list = 0; list < all_nodes.size(); ++list)
       for (const unsigned int i : all_nodes[list])
@@ -193,13 +280,16 @@ namespace Talus
     if (acting == marked)
       return;
     marked = acting;
+    const auto box = dynamic_cast<BoxGrid<dim> *>(&grid);
+    if (box == nullptr)
+      return; // meshes have no treatment that would ask
     // Where something else acts as well a wall does not slip, whatever the order of the list.
     std::vector<typename Lattice<dim>::Faces> faces(grid.fields.n_owned(), 0);
     for (const bool is_slip : {true, false})
       for (unsigned int c = 0; c < conditions.size(); ++c)
         if (acting[c] && conditions[c]->is_slip() == is_slip)
           conditions[c]->mark_slip(faces);
-    grid.set_slip_walls(faces, n);
+    box->set_slip_walls(faces, n);
   }
 
   template <int dim>

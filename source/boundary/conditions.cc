@@ -36,15 +36,13 @@ namespace Talus
       void prescribe(const double time, Grid<dim> &grid) override
       {
         Tensor<1, dim> v = velocity.value({}, time);
-        for (const auto &list : this->nodes)
-          for (const unsigned int i : list)
-          {
-            if (velocity.depends_on_space())
-              v = velocity.value(grid.node_position(i), time);
-            for (unsigned int d = 0; d < dim; ++d)
-              if (is_prescribed[d])
-                this->set(i, d, v[d]);
-          }
+        this->for_each_node([&](const unsigned int i) {
+          if (velocity.depends_on_space())
+            v = velocity.value(grid.node_position(i), time);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (is_prescribed[d])
+              this->set(i, d, v[d]);
+        });
       }
 
       ParsedVector<dim>     velocity;
@@ -62,10 +60,10 @@ namespace Talus
     private:
       void prescribe(const double, Grid<dim> &) override
       {
-        for (const auto &list : this->nodes)
-          for (const unsigned int i : list)
-            for (unsigned int d = 0; d < dim; ++d)
-              this->set(i, d, 0.);
+        this->for_each_node([&](const unsigned int i) {
+          for (unsigned int d = 0; d < dim; ++d)
+            this->set(i, d, 0.);
+        });
       }
     };
 
@@ -79,7 +77,7 @@ namespace Talus
       void parse_parameters(ParameterHandler &prm) override
       {
         Condition<dim>::parse_parameters(prm);
-        if (this->faces.empty())
+        if (this->faces.empty() && this->boundaries.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
                            "slip needs the faces or half spaces whose normals it acts along. A box of nodes has none.");
       }
@@ -89,9 +87,14 @@ namespace Talus
     private:
       /** Stops a node along the normal. */
       virtual void stop(const unsigned int i, const unsigned int axis) { this->set(i, axis, 0.); }
+      virtual void stop(const unsigned int i, const Tensor<1, dim> &n) { this->set(i, n, 0.); }
 
       void prescribe(const double, Grid<dim> &grid) override
       {
+        for (const auto &part : this->parts)
+          for (unsigned int k = 0; k < part.nodes.size(); ++k)
+            for (const auto &n : part.basis[k])
+              stop(part.nodes[k], n);
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
           const unsigned int id = this->faces[f];
@@ -121,6 +124,7 @@ namespace Talus
 
     private:
       void stop(const unsigned int i, const unsigned int axis) override { this->arrest(i, axis); }
+      void stop(const unsigned int i, const Tensor<1, dim> &n) override { this->arrest(i, n); }
     };
 
     /**
@@ -145,7 +149,7 @@ namespace Talus
       {
         Condition<dim>::parse_parameters(prm);
         wall.initialize(wall_text, this->get_section_name(), "Wall velocity");
-        if (this->faces.empty())
+        if (this->faces.empty() && this->boundaries.empty())
           throw EntryError(this->get_section_name(), "Boundary ids",
                            "friction needs the faces or half spaces whose normals press. A box of nodes has none.");
         if (!(mu >= 0))
@@ -179,34 +183,47 @@ namespace Talus
     private:
       void prescribe(const double time, Grid<dim> &grid) override
       {
-        using Fields          = NodalFields<dim>;
         Tensor<1, dim> v_wall = wall.value({}, time);
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
-          const unsigned int axis    = this->faces[f] / 2;
-          const double       outward = this->faces[f] % 2 == 0 ? -1 : 1;
+          Tensor<1, dim> n;
+          n[this->faces[f] / 2] = this->faces[f] % 2 == 0 ? -1 : 1;
           for (const unsigned int i : this->nodes[f])
           {
-            if (wall.depends_on_space())
-              v_wall = wall.value(grid.node_position(i), time);
-            if (this->prescribed)
+            if (!this->prescribed)
             {
-              this->prescribed->press(i, axis, outward, mu, v_wall);
+              rub(i, n, time, v_wall, grid);
               continue;
             }
-            Tensor<1, dim> slip;
-            for (unsigned int d = 0; d < dim; ++d)
-              slip[d] = grid.fields[i][Fields::velocity + d] - v_wall[d];
-            const double approach = outward * slip[axis];
-            if (!(approach > 0))
-              continue;
-            slip[axis]         = 0;
-            const double speed = slip.norm();
-            slip *= speed > mu * approach ? 1 - mu * approach / speed : 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              this->set(i, d, v_wall[d] + slip[d]);
+            if (wall.depends_on_space())
+              v_wall = wall.value(grid.node_position(i), time);
+            this->prescribed->press(i, this->faces[f] / 2, n[this->faces[f] / 2], mu, v_wall);
           }
         }
+        for (const auto &part : this->parts)
+          for (unsigned int k = 0; k < part.nodes.size(); ++k)
+            for (const auto &n : part.normals[k])
+              rub(part.nodes[k], n, time, v_wall, grid);
+      }
+
+      /** A node against a face with outward normal n. */
+      void rub(const unsigned int i, const Tensor<1, dim> &n, const double time, Tensor<1, dim> &v_wall,
+               const Grid<dim> &grid)
+      {
+        using Fields = NodalFields<dim>;
+        if (wall.depends_on_space())
+          v_wall = wall.value(grid.node_position(i), time);
+        Tensor<1, dim> slip;
+        for (unsigned int d = 0; d < dim; ++d)
+          slip[d] = grid.fields[i][Fields::velocity + d] - v_wall[d];
+        const double approach = n * slip;
+        if (!(approach > 0))
+          return;
+        slip -= approach * n;
+        const double speed = slip.norm();
+        slip *= speed > mu * approach ? 1 - mu * approach / speed : 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          this->set(i, d, v_wall[d] + slip[d]);
       }
 
       ParsedVector<dim> wall;

@@ -109,6 +109,22 @@ namespace Talus
   }
 
   template <int dim>
+  void Mesh<dim>::hold(const std::vector<char> &is_held)
+  {
+    held.assign(n_cells(), 0);
+    for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      unsigned int mask = 0;
+      for (unsigned int u = 0; u < n_corners; ++u)
+        mask |= (is_held[nodes[c][u]] ? 1u : 0u) << u;
+      held[c] = mask != 0;
+      for (std::size_t k = rings.begin[c]; k < rings.begin[c + 1]; ++k)
+        if (!is_held[rings.node[k]])
+          rings.touches[k] &= ~mask;
+    }
+  }
+
+  template <int dim>
   void Mesh<dim>::find_sizes()
   {
     size.assign(n_nodes(), 0);

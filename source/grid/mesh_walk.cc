@@ -23,7 +23,11 @@ namespace Talus
   template <int dim>
   unsigned int CellFinder<dim>::find(const double *x) const
   {
-    // Of several that hold it within round-off, the one it lies deepest in, and then the first: the same on all ranks.
+    // Of several that hold it within round-off, the one it lies deepest in, and then the first of the lowest rank: the
+    // same on all ranks.
+    const auto comes_before = [&](const unsigned int a, const unsigned int b) {
+      return mesh.owner[a] < mesh.owner[b] || (mesh.owner[a] == mesh.owner[b] && mesh.number[a] < mesh.number[b]);
+    };
     unsigned int            found   = mesh.missing;
     double                  deepest = -barycentric_tolerance;
     std::array<double, dim> point;
@@ -31,7 +35,7 @@ namespace Talus
     bins.for_near(point, point, [&](const unsigned int cell) {
       const auto   B     = mesh.barycentric(cell, x);
       const double least = *std::min_element(B.begin(), B.end());
-      if (least > deepest || (found == mesh.missing && least == deepest))
+      if (least > deepest || (least == deepest && (found == mesh.missing || comes_before(cell, found))))
       {
         found   = cell;
         deepest = least;

@@ -33,7 +33,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  void Walls<dim>::attach(Grid<dim> &grid)
+  void Walls<dim>::attach(BoxGrid<dim> &grid)
   {
     this->grid = &grid;
     select();

@@ -1,6 +1,6 @@
 #include <talus/core/registry.h>
 #include <talus/core/transpose.h>
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/particles/corners.h>
 
@@ -36,7 +36,7 @@ namespace Talus
 
       void attach(const Grid<dim> &grid) override
       {
-        lattice = &grid.lattice;
+        lattice = &box_grid(grid, "/Kernel", "Type").lattice;
         for (unsigned int i = 0; i < padded; ++i)
         {
           place_in_box[i] = 0;

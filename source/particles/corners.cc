@@ -17,13 +17,13 @@ namespace Talus
   {
     if (!reach.at_corners)
       return;
-    is_open = coverage;
+    is_open = box->coverage;
     // One axis after the other: true where an entry from i to i + n - 1 of this line is not active.
-    const auto       &lattice = grid->lattice;
+    const auto       &lattice = box->lattice;
     const int         size    = lattice.node.size();
     std::vector<char> is_closed(size);
     for (int i = 0; i < size; ++i)
-      is_closed[i] = lattice.node[i] != lattice.missing && !grid->is_active[lattice.node[i]];
+      is_closed[i] = lattice.node[i] != lattice.missing && !box->is_active[lattice.node[i]];
     for (unsigned int d = 0; d < dim; ++d)
     {
       const std::vector<char> before = is_closed;
@@ -40,7 +40,7 @@ namespace Talus
   void Particles<dim>::look_at_corners(const unsigned int begin, const unsigned int end)
   {
     using Number        = Simd<native_width>;
-    const auto &lattice = grid->lattice;
+    const auto &lattice = box->lattice;
     const Corners<dim> corners(*this, half_edges);
     for_each_batch(begin, end, [&](const auto batch) {
       const auto r = corners.half_edges(batch);
@@ -65,7 +65,7 @@ namespace Talus
       else if (!are_open(lattice, x, r))
         corners.for_each(lattice, reach.shift, batch.p, batch.p + batch.size(),
                          [&](const unsigned int, const auto &index) {
-                           if (!lattice.is_in_table(index) || !coverage[lattice.table_index(index)])
+                           if (!lattice.is_in_table(index) || !box->coverage[lattice.table_index(index)])
                              needs_synchronise = true;
                            else if (!is_open[lattice.table_index(index)])
                              needs_activation = true;
@@ -119,9 +119,9 @@ namespace Talus
   template <int dim>
   void Particles<dim>::check_corners_are_known()
   {
-    const auto &lattice = grid->lattice;
+    const auto &lattice = box->lattice;
     Corners<dim>(*this, half_edges).for_each(lattice, reach.shift, 0, this->size(), [&](const unsigned int p, const auto &index) {
-      AssertThrow(lattice.is_in_table(index) && coverage[lattice.table_index(index)],
+      AssertThrow(lattice.is_in_table(index) && box->coverage[lattice.table_index(index)],
                   RunError("The domain of particle " + std::to_string(this->id[p]) + " at " +
                            to_text<dim>(Point<dim>(this->vector(this->position, p))) +
                            " reaches farther beyond the cells of its rank than ranks know the grid. Raise 'Layers' in " +

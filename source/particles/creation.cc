@@ -15,24 +15,15 @@ namespace Talus
 
   namespace
   {
-    /** Visits what a body puts into a cell: where a point lies is the lattice's arithmetic alone. */
+    /** Visits what a body puts into a cell: where a point lies is the grid's arithmetic alone. */
     template <int dim, class Visitor>
     void visit_cell(const Grid<dim> &grid, const Body<dim> &body, const typename Grid<dim>::CellIterator &cell,
                     const Visitor &visitor)
     {
-      const Lattice<dim> &lattice = grid.lattice;
-      const auto          index   = lattice.cell_index(cell->center());
-      // Wider than round-off, so that the shape shows all that may lie in the cell.
-      Point<dim> lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double margin = 2 * lattice.face_tolerance(d) + 1e-6 * lattice.h[d];
-        lower[d]            = lattice.node_position(index[d], d) - margin;
-        upper[d]            = lattice.node_position(index[d] + 1, d) + margin;
-      }
-      body.shape->visit(BoundingBox<dim>({lower, upper}), [&](const std::uint64_t i, Point<dim> x, double volume) {
-        volume *= body.is_clipped ? lattice.share_inside(x) : lattice.enter(x);
-        if (volume > 0 && lattice.cell_index(x) == index)
+      const auto number = grid.cell_number(cell->center());
+      body.shape->visit(grid.cell_box(cell), [&](const std::uint64_t i, Point<dim> x, double volume) {
+        volume *= body.is_clipped ? grid.share_inside(x) : grid.enter(x);
+        if (volume > 0 && grid.cell_number(x) == number)
           visitor(i, x, volume);
       });
     }
@@ -61,8 +52,8 @@ namespace Talus
                               const std::vector<std::unique_ptr<Material>> &materials)
   {
     this->grid = &grid;
-    mapping    = std::make_unique<MappingCartesian<dim>>();
-    home = std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, *mapping, this->n_columns());
+    home =
+      std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, grid.mapping, this->n_columns());
 
     // A rank's share and some more: what is reserved too much is never touched, and growing step by step costs time.
     double n_indices = 0;
@@ -95,9 +86,9 @@ namespace Talus
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
-            const Point<dim> location = grid.lattice.inside_cell(x);
+            const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
-            home->insert_particle(location, mapping->transform_real_to_unit_cell(cell, location), body.first_id + i,
+            home->insert_particle(location, grid.unit_point(cell, location), body.first_id + i,
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];
@@ -110,6 +101,9 @@ namespace Talus
           });
     }
     load(n_home);
+    if (this->keeps_places)
+      for (unsigned int p = 0; p < this->size(); ++p)
+        this->place[p] = grid.cell_number(Point<dim>(this->vector(this->position, p)));
 
     Utilities::MPI::sum(n_created, grid.communicator, n_created);
     Utilities::MPI::sum(volume_created, grid.communicator, volume_created);

@@ -155,7 +155,7 @@ namespace Talus
     class Filling
     {
     public:
-      Filling(const Particles<dim> &particles, const std::vector<bool> &is_list, const Grid<dim> &grid) : grid(grid)
+      Filling(const Particles<dim> &particles, const std::vector<bool> &is_list, const BoxGrid<dim> &grid) : grid(grid)
       {
         nodes.reinit(grid.nodes);
         for (unsigned int p = 0; p < particles.size(); ++p)
@@ -209,7 +209,7 @@ namespace Talus
         });
       }
 
-      const Grid<dim> &grid;
+      const BoxGrid<dim> &grid;
       NodalArray<4>    nodes; // volume, times body, times its square
     };
 
@@ -220,7 +220,7 @@ namespace Talus
     {
       std::vector<unsigned int> has_points(is_list.size(), 0);
       for (unsigned int p = 0; p < particles.size(); ++p)
-        if ((particles.vector(particles.position, p) - x).norm() < 1.5 * grid.lattice.largest_spacing())
+        if ((particles.vector(particles.position, p) - x).norm() < 1.5 * grid.largest_spacing)
           has_points[particles.body[p]] = is_list[particles.body[p]];
       Utilities::MPI::max(has_points, grid.communicator, has_points);
       std::vector<unsigned int> bodies;
@@ -252,7 +252,11 @@ namespace Talus
       blame(inside.body, "the bodies '" + bodies[inside.body]->name + "' and '" + bodies[inside.other]->name +
                            "' overlap: " + std::to_string(inside.number) +
                            " points of one lie in the other, the first at " + inside.place() + ".");
-    const auto twins = first_of_all(find_twins(particles, grid.lattice), grid.communicator);
+    // What follows counts by the cells of a box.
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&grid);
+    if (box == nullptr)
+      return;
+    const auto twins = first_of_all(find_twins(particles, box->lattice), grid.communicator);
     if (twins.is_found())
     {
       const auto name = [&](const unsigned int b, const std::uint64_t id) {
@@ -270,7 +274,7 @@ namespace Talus
       return;
     // A row of particles that two lists share fills nodes 1.4-fold, jitter and meshes 1.1-fold.
     constexpr double most    = 1.3;
-    auto             fullest = Filling<dim>(particles, is_list, grid).fullest();
+    auto             fullest = Filling<dim>(particles, is_list, *box).fullest();
     for (const auto &other : Utilities::MPI::all_gather(grid.communicator, fullest))
       if (other.first > fullest.first)
         fullest = other;

@@ -1,11 +1,10 @@
-#include <talus/core/batch.h>
 #include <talus/core/exceptions.h>
 #include <talus/particles/corners.h>
 #include <talus/particles/particles.h>
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
+#include <utility>
 
 namespace Talus
 {
@@ -14,15 +13,15 @@ namespace Talus
   template <int dim>
   void Particles<dim>::set_reach(Grid<dim> &grid, const Reach &reach)
   {
-    this->grid      = &grid;
-    this->reach     = reach;
-    coverage        = grid.lattice.coverage(reach.n);
-    stencil_shift   = reach.shift;
-    n_stencil_nodes = reach.n;
+    this->grid         = &grid;
+    this->reach        = reach;
+    this->keeps_places = grid.keeps_places();
+    n_stencil_nodes    = reach.n;
     if (reach.at_corners)
+    {
+      box        = &box_grid(grid, "/Kernel", "Type");
       half_edges = Corners<dim>::add_field(*this);
-
-    knows_all_stencils = Utilities::MPI::n_mpi_processes(grid.communicator) == 1;
+    }
     update_open_places();
   }
 
@@ -37,89 +36,31 @@ namespace Talus
   template <int dim>
   void Particles<dim>::relocate(const unsigned int begin, const unsigned int end)
   {
-    using Number        = Simd<native_width>;
-    const auto &lattice = grid->lattice;
-    const auto  x       = this->template components<dim>(this->position);
-    bool        strays  = false;
-    for_each_batch(begin, end, [&](const auto batch) {
-      std::array<Number, dim> coordinate;
-      const auto              find = [&] {
-        auto is_outside = Number(1.) < Number(0.);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
-          is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
-        }
-        return is_outside;
-      };
-      auto is_outside = find();
-      if (any(is_outside))
-      {
-        for (unsigned int l = 0; l < batch.size(); ++l)
-          if (is_outside[l])
-            put_on_face(batch.p + l);
-        is_outside = find();
-      }
-      if (any(is_outside))
-      {
-        for (unsigned int l = 0; l < batch.size(); ++l)
-          if (is_outside[l] && (outside == none || this->id[batch.p + l] < this->id[outside]))
-            outside = batch.p + l;
-      }
-      else if (!knows_all_stencils)
-      {
-        Number place     = 0.; // in the tables, a whole number below 2^31
-        auto   is_beyond = Number(1.) < Number(0.);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Number index = floor(coordinate[d] - Number(stencil_shift)) - Number(lattice.first[d]);
-          is_beyond          = is_beyond | (index < Number(0.)) | (index >= Number(lattice.extent[d]));
-          place += index * Number(lattice.stride[d]);
-        }
-        if (any(is_beyond))
-          strays = true;
-        else
-        {
-          alignas(64) int places[Number::n_lanes];
-          store_integers(place, places);
-          bool is_covered = true;
-          for (const int at : places)
-            is_covered = is_covered & (coverage[at] != 0);
-          strays = strays || !is_covered;
-        }
-      }
-    });
-    needs_synchronise = needs_synchronise || strays;
+    found = {};
+    grid->look(this->template components<dim>(this->position), begin, end, this->place.data(), found);
+    for (const unsigned int p : found.outside)
+      if (outside == none || this->id[p] < this->id[outside])
+        outside = p;
+    needs_synchronise = needs_synchronise || found.strays;
+    needs_activation  = needs_activation || found.needs_activation;
     if (reach.at_corners)
       look_at_corners(begin, end);
   }
 
   template <int dim>
-  void Particles<dim>::put_on_face(const unsigned int p)
+  std::vector<unsigned int> Particles<dim>::places() const
   {
-    Tensor<1, dim> x = this->vector(this->position, p);
-    if (grid->lattice.enter(x))
-      for (unsigned int d = 0; d < dim; ++d)
-        this->component(this->position, d)[p] = x[d];
+    std::vector<unsigned int> result(this->size());
+    grid->places(this->template components<dim>(this->position), this->place.data(), 0, this->size(), result.data());
+    return result;
   }
 
   template <int dim>
-  unsigned int Particles<dim>::place(const unsigned int p) const
+  void Particles<dim>::check_place(const unsigned int p, const unsigned int place) const
   {
-    const auto &lattice  = grid->lattice;
-    int         entry    = 0;
-    bool        is_known = true;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double coordinate = lattice.coordinate(this->component(this->position, d)[p], d);
-      const double index      = std::floor(coordinate - stencil_shift) - lattice.first[d];
-      is_known                = is_known && index >= 0 && index < lattice.extent[d];
-      entry += is_known ? static_cast<int>(index) * lattice.stride[d] : 0;
-    }
-    AssertThrow(is_known && coverage[entry],
+    AssertThrow(place != none,
                 RunError("Particle " + std::to_string(this->id[p]) + " at " + to_text(this->vector(this->position, p)) +
                          " lies beyond the nodes that its rank knows. It must migrate, or the run end, before."));
-    return entry;
   }
 
   template <int dim>
@@ -129,74 +70,31 @@ namespace Talus
   }
 
   template <int dim>
-  std::vector<unsigned int> Particles<dim>::ranks_of(const std::vector<unsigned int> &particles) const
-  {
-    std::vector<unsigned int> ranks(particles.size()), far;
-    std::vector<Point<dim>>   far_points;
-    for (unsigned int i = 0; i < particles.size(); ++i)
-    {
-      const Point<dim> x(this->vector(this->position, particles[i]));
-      const auto       cell = grid->lattice.cell_index(x);
-      ranks[i] = grid->lattice.is_in_table(cell) ? grid->lattice.owner[grid->lattice.table_index(cell)] : none;
-      if (ranks[i] == none)
-      {
-        far.push_back(i);
-        far_points.push_back(grid->lattice.inside_cell(x));
-      }
-    }
-    // Seldom: a particle has crossed all cells that this rank knows.
-    if (Utilities::MPI::max<unsigned int>(far.size(), grid->communicator) > 0)
-    {
-      const auto found = grid->triangulation.find_point_owner_rank(far_points);
-      for (unsigned int i = 0; i < far.size(); ++i)
-      {
-        AssertThrow(found[i] < Utilities::MPI::n_mpi_processes(grid->communicator),
-                    RunError("Particle " + std::to_string(this->id[particles[far[i]]]) + " at " +
-                             to_text<dim>(far_points[i]) +
-                             " was lost between ranks: no cell holds it. Lower the Courant number."));
-        ranks[far[i]] = found[i];
-      }
-    }
-    return ranks;
-  }
-
-  template <int dim>
   void Particles<dim>::migrate()
   {
-    needs_synchronise          = false;
-    brings_new_nodes           = false;
-    const unsigned int my_rank = Utilities::MPI::this_mpi_process(grid->communicator);
+    needs_synchronise = false;
+    brings_new_nodes  = false;
     if (Utilities::MPI::n_mpi_processes(grid->communicator) == 1)
       return;
-    const auto &lattice = grid->lattice;
-    const auto  x       = this->template components<dim>(this->position);
+    const auto leavers =
+      grid->leavers(std::as_const(*this).template components<dim>(this->position), this->place.data(), this->size());
 
-    std::vector<unsigned int> leavers;
-    for_each_batch(0, this->size(), [&](const auto batch) {
-      using Number = typename decltype(batch)::Number;
-      alignas(64) int cells[dim][Number::n_lanes];
-      for (unsigned int d = 0; d < dim; ++d)
-        store_integers(floor((batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d]), cells[d]);
-      for (unsigned int l = 0; l < batch.size(); ++l)
-      {
-        typename Lattice<dim>::Index cell;
-        for (unsigned int d = 0; d < dim; ++d)
-          cell[d] = cells[d][l];
-        if (!lattice.is_in_table(cell) || lattice.owner[lattice.table_index(cell)] != my_rank)
-          leavers.push_back(batch.p + l);
-      }
-    });
-    const auto ranks = ranks_of(leavers);
-
-    // A particle is its id and its columns.
-    const unsigned int                          n = 1 + this->n_columns();
+    // A particle is its id and its columns, and its place where it keeps that.
+    const unsigned int                          n = 1 + this->n_columns() + this->keeps_places;
     std::map<unsigned int, std::vector<double>> messages;
-    for (unsigned int i = 0; i < leavers.size(); ++i)
+    for (const Leaver &leaver : leavers)
     {
-      auto &message = messages[ranks[i]];
-      message.push_back(this->id[leavers[i]]);
+      const unsigned int p = leaver.particle;
+      AssertThrow(leaver.rank != none,
+                  RunError("Particle " + std::to_string(this->id[p]) + " at " +
+                           to_text(this->vector(this->position, p)) +
+                           " was lost between ranks: no cell holds it. Lower the Courant number."));
+      auto &message = messages[leaver.rank];
+      message.push_back(this->id[p]);
       for (unsigned int c = 0; c < this->n_columns(); ++c)
-        message.push_back(this->column(c)[leavers[i]]);
+        message.push_back(this->column(c)[p]);
+      if (this->keeps_places)
+        message.push_back(leaver.place);
     }
     for (const auto &[rank, message] : messages)
       grid->communicator.sent(message.size() * sizeof(double));
@@ -217,23 +115,21 @@ namespace Talus
       this->resize(n_before + arrivals.size() - leavers.size());
     for (unsigned int i = 0; i < arrivals.size(); ++i)
     {
-      const unsigned int p = i < n_filled ? leavers[i] : n_before + i - n_filled;
-      this->id[p]          = static_cast<types::particle_index>(arrivals[i][0]);
-      this->body[p]        = body_of(this->id[p]);
-      for (unsigned int c = 0; c < this->n_columns(); ++c)
-        this->column(c)[p] = arrivals[i][1 + c];
-    }
-    for (unsigned int i = 0; i < arrivals.size() && !brings_new_nodes; ++i)
-    {
-      const unsigned int p = i < n_filled ? leavers[i] : n_before + i - n_filled;
-      brings_new_nodes     = !grid->is_active_around(lattice.table_entry(place(p)), n_stencil_nodes);
+      const unsigned int p = i < n_filled ? leavers[i].particle : n_before + i - n_filled;
+      unpack(arrivals[i], p);
+      if (brings_new_nodes)
+        continue;
+      unsigned int place;
+      grid->places(std::as_const(*this).template components<dim>(this->position), this->place.data(), p, p + 1, &place);
+      check_place(p, place);
+      brings_new_nodes = !grid->is_active_around(place);
     }
     if (this->material_begin.size() > 2)
     {
       // Materials must stay together, so that places are not free to choose.
       std::vector<bool> is_gone(this->size(), false);
       for (unsigned int i = n_filled; i < leavers.size(); ++i)
-        is_gone[leavers[i]] = true;
+        is_gone[leavers[i].particle] = true;
       sort(is_gone);
       if (reach.at_corners)
         check_corners_are_known();
@@ -242,12 +138,23 @@ namespace Talus
     for (unsigned int i = leavers.size(); i-- > n_filled;)
     {
       // From behind, so that what moves into the gap is not itself a leaver.
-      move(this->size() - 1, leavers[i]);
+      move(this->size() - 1, leavers[i].particle);
       this->resize(this->size() - 1);
     }
     this->material_begin.back() = this->size();
     if (reach.at_corners)
       check_corners_are_known();
+  }
+
+  template <int dim>
+  void Particles<dim>::unpack(const double *message, const unsigned int p)
+  {
+    this->id[p]   = static_cast<types::particle_index>(message[0]);
+    this->body[p] = body_of(this->id[p]);
+    for (unsigned int c = 0; c < this->n_columns(); ++c)
+      this->column(c)[p] = message[1 + c];
+    if (this->keeps_places)
+      this->place[p] = static_cast<unsigned int>(message[1 + this->n_columns()]);
   }
 
   template <int dim>
@@ -257,6 +164,8 @@ namespace Talus
     this->body[to] = this->body[from];
     for (unsigned int c = 0; c < this->n_columns(); ++c)
       this->column(c)[to] = this->column(c)[from];
+    if (this->keeps_places)
+      this->place[to] = this->place[from];
   }
 
   template <int dim>
@@ -269,16 +178,17 @@ namespace Talus
   void Particles<dim>::sort(const std::vector<bool> &is_gone)
   {
     ++arrangement;
-    // Counting sort by material and first node; particles are few for each, and mostly in order.
-    const auto               &lattice = grid->lattice;
-    const unsigned int        n_cells = lattice.cell.size(), n_materials = this->material_begin.size() - 1;
-    std::vector<unsigned int> begin(static_cast<std::size_t>(n_materials) * n_cells + 1, 0);
+    // Counting sort by material and place; particles are few for each, and mostly in order.
+    const auto                at       = places();
+    const std::size_t         n_places = grid->n_places(), n_materials = this->material_begin.size() - 1;
+    std::vector<unsigned int> begin(n_materials * n_places + 1, 0);
     std::vector<std::size_t>  key(this->size());
     for (unsigned int p = 0; p < this->size(); ++p)
     {
       if (!is_gone.empty() && is_gone[p])
         continue;
-      key[p] = static_cast<std::size_t>(body_material[this->body[p]]) * n_cells + place(p);
+      check_place(p, at[p]);
+      key[p] = body_material[this->body[p]] * n_places + at[p];
       ++begin[key[p] + 1];
     }
     for (std::size_t k = 0; k + 1 < begin.size(); ++k)
@@ -291,24 +201,25 @@ namespace Talus
       std::sort(order.begin() + begin[k], order.begin() + begin[k + 1],
                 [&](const unsigned int a, const unsigned int b) { return this->id[a] < this->id[b]; });
     for (unsigned int m = 0; m <= n_materials; ++m)
-      this->material_begin[m] = begin[static_cast<std::size_t>(m) * n_cells];
+      this->material_begin[m] = begin[m * n_places];
     this->permute(order);
   }
 
   template <int dim>
-  std::vector<char> Particles<dim>::stencil_beginnings() const
+  std::vector<char> Particles<dim>::used_places() const
   {
-    std::vector<char> begins(grid->lattice.node.size(), 0);
+    std::vector<char> is_used(grid->n_places(), 0);
+    const auto        at = places();
     for (unsigned int p = 0; p < this->size(); ++p)
-      begins[place(p)] = 1;
-    if (reach.at_corners)
     {
-      const auto &lattice = grid->lattice;
-      Corners<dim>(*this, half_edges)
-        .for_each(lattice, reach.shift, 0, this->size(),
-                  [&](const unsigned int, const auto &index) { begins[lattice.table_index(index)] = 1; });
+      check_place(p, at[p]);
+      is_used[at[p]] = 1;
     }
-    return begins;
+    if (reach.at_corners)
+      Corners<dim>(*this, half_edges)
+        .for_each(box->lattice, reach.shift, 0, this->size(),
+                  [&](const unsigned int, const auto &index) { is_used[box->lattice.table_index(index)] = 1; });
+    return is_used;
   }
 
   template class Particles<2>;

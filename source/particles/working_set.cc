@@ -85,6 +85,8 @@ namespace Talus
   {
     id.resize(n_particles);
     body.resize(n_particles);
+    if (keeps_places)
+      place.resize(n_particles);
     for (const auto &field : fields)
       for (unsigned int c = 0; c < field.n_components; ++c)
         columns[field.first + c].resize(n_particles, field.initial[c]);
@@ -112,6 +114,11 @@ namespace Talus
     decltype(body) ordered_body(order.size());
     reorder(id, ordered_id);
     reorder(body, ordered_body);
+    if (keeps_places)
+    {
+      decltype(place) ordered_place(order.size());
+      reorder(place, ordered_place);
+    }
     AlignedVector<double> ordered;
     reserve_column(ordered, order.size());
     for (auto &column : columns)

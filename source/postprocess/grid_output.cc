@@ -21,7 +21,7 @@ namespace Talus
         vectors[c].local_element(i) = grid.fields[i][lanes[c]];
       this->add_data_vector(vectors[c], names[c]);
     }
-    this->build_patches();
+    this->build_patches(grid.mapping);
     this->clear_input_data_references();
   }
 

@@ -126,15 +126,13 @@ namespace Talus
   template <int dim>
   void Probes<dim>::check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const
   {
-    double diagonal_squared = 0;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      diagonal_squared += grid.lattice.h[d] * grid.lattice.h[d];
-      if (!grid.lattice.is_between(probe.position[d], grid.lower[d], grid.upper[d], d))
+      if (!grid.is_between(probe.position[d], grid.lower[d], grid.upper[d], d))
         throw EntryError(probe.get_section_name(), "Position",
                          "the point lies outside the grid. Move it into the grid's box.");
     }
-    if (probe.is_particle && distance > std::sqrt(diagonal_squared))
+    if (probe.is_particle && distance > std::sqrt(grid.diagonal_square()))
       throw EntryError(probe.get_section_name(), "Position",
                        "no particle starts within a cell's diagonal of this point; the nearest one is " +
                          std::to_string(distance) + " away. Move the point into a body.");

@@ -2,6 +2,7 @@
 #include <talus/simulation/checks.h>
 
 #include <limits>
+#include <unordered_map>
 #include <sstream>
 
 namespace Talus
@@ -88,12 +89,11 @@ namespace Talus
   void Checks<dim>::find_extents()
   {
     const auto                &particles = model.particles;
-    const Lattice<dim>        &lattice   = model.grid.lattice;
     constexpr double           infinity  = std::numeric_limits<double>::infinity();
     const unsigned int         n_bodies  = model.bodies.size();
-    std::vector<unsigned char> in_cell(lattice.cell.size(), 0);
+    std::unordered_map<std::size_t, unsigned char> in_cell;
     const auto                 cell_of = [&](const unsigned int p) {
-      return lattice.table_index(lattice.cell_index(Point<dim>(particles.vector(particles.position, p))));
+      return model.grid.cell_number(Point<dim>(particles.vector(particles.position, p)));
     };
     for (unsigned int p = 0; p < particles.size(); ++p)
       if (auto &n = in_cell[cell_of(p)]; n < 2)
@@ -134,7 +134,6 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_sizes()
   {
-    const Lattice<dim> &lattice = model.grid.lattice;
     for (unsigned int b = 0; b < extents.size(); ++b)
     {
       const Extent    &extent = extents[b];
@@ -146,10 +145,10 @@ namespace Talus
       bool         is_thin  = false;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double across = (extent.upper[d] - extent.lower[d]) * lattice.inverse_h[d];
+        const double across = (extent.upper[d] - extent.lower[d]) * model.grid.inverse_spacing[d];
         // What reaches from wall to wall is meant to be the same all along.
-        const bool fills_grid = extent.lower[d] <= model.grid.lower[d] + 0.5 * lattice.h[d] &&
-                                extent.upper[d] >= model.grid.upper[d] - 0.5 * lattice.h[d];
+        const bool fills_grid = extent.lower[d] <= model.grid.lower[d] + 0.5 * model.grid.spacing[d] &&
+                                extent.upper[d] >= model.grid.upper[d] - 0.5 * model.grid.spacing[d];
         if (!fills_grid && across < n_cells)
         {
           thin    = d;
@@ -183,7 +182,7 @@ namespace Talus
         continue;
       const unsigned int up     = layer->axis;
       const double       bottom = extents[b].lower[up], top = extents[b].upper[up];
-      const double       round_off = 1e-6 * model.grid.lattice.h[up];
+      const double       round_off = 1e-6 * model.grid.spacing[up];
       const auto         middle    = extents[b].lower + (extents[b].upper - extents[b].lower) / 2;
       double             g         = 0;
       for (const double time : {0., end_time})

@@ -39,8 +39,11 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_edges()
   {
-    constexpr double   near    = 0.1, tolerance = 1e-6; // [h]
-    const Lattice<dim> &lattice = model.grid.lattice;
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
+    if (box == nullptr)
+      return; // a mesh has no lines of nodes
+    constexpr double    near    = 0.1, tolerance = 1e-6; // [h]
+    const Lattice<dim> &lattice = box->lattice;
     for (const auto &condition : model.boundary.conditions)
       for (const auto &edge : condition->edges())
       {
@@ -83,8 +86,8 @@ namespace Talus
               const auto x        = model.grid.node_position(i);
               bool       is_below = true; // or within the body, or nearly so
               for (unsigned int e = 0; e < dim; ++e)
-                is_below = is_below && (x[e] > extent.lower[e] - 2 * model.grid.lattice.h[e] || (e == d && !is_upper)) &&
-                           (x[e] < extent.upper[e] + 2 * model.grid.lattice.h[e] || (e == d && is_upper));
+                is_below = is_below && (x[e] > extent.lower[e] - 2 * model.grid.spacing[e] || (e == d && !is_upper)) &&
+                           (x[e] < extent.upper[e] + 2 * model.grid.spacing[e] || (e == d && is_upper));
               is_held = is_held || is_below;
             }
         if (Utilities::MPI::max(is_held ? 1 : 0, model.grid.communicator) == 0)
@@ -131,7 +134,7 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_steps(const double step_size, const double signal_speed, const unsigned int max_steps)
   {
-    const double h        = model.grid.lattice.smallest_spacing();
+    const double h        = model.grid.smallest_spacing;
     const bool   is_fixed = std::strtod(parameters.value("/Run", "Step size", "0").c_str(), nullptr) > 0;
     const std::string entry = is_fixed ? "Step size" : "Courant number";
     const double n_steps    = end_time / step_size;

@@ -83,7 +83,7 @@ namespace Talus
     double nu = 0;
     for (const auto &material : model.materials)
       nu = std::max(nu, material->kinematic_viscosity());
-    const double h = model.grid.lattice.smallest_spacing();
+    const double h = model.grid.smallest_spacing;
     return courant_number / (last.signal_speed / h + 2 * dim * nu / (h * h));
   }
 

@@ -37,7 +37,7 @@ namespace Talus
   void FractureWatch<dim>::for_each_beyond(const Model<dim> &model, const double &least, const Visitor &visitor) const
   {
     const auto F = model.particles.template components<dim * dim>(model.particles.F);
-    const auto h = model.grid.lattice.smallest_spacing();
+    const auto h = model.grid.smallest_spacing;
     for (unsigned int p = 0; p < model.particles.size(); ++p)
     {
       // The largest principal stretch is at most the norm of F.
@@ -64,14 +64,17 @@ namespace Talus
   {
     double square = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      square += neighbour[d] * neighbour[d] * model.grid.lattice.inverse_h[d] * model.grid.lattice.inverse_h[d];
+      square += neighbour[d] * neighbour[d] * model.grid.inverse_spacing[d] * model.grid.inverse_spacing[d];
     return std::sqrt(square) / reach;
   }
 
   template <int dim>
   bool FractureWatch<dim>::has_gaps(const Model<dim> &model, const unsigned int p, const Tensor<1, dim> &neighbour) const
   {
-    const Lattice<dim> &lattice = model.grid.lattice;
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
+    if (box == nullptr)
+      return false; // on a mesh nobody looks between the particles
+    const Lattice<dim> &lattice = box->lattice;
     const auto          mass_at = [&](const Tensor<1, dim> &x) {
       typename Lattice<dim>::Index first;
       std::array<double, dim>      s;

@@ -1,5 +1,6 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/memory.h>
+#include <talus/grid/simplex_grid.h>
 #include <talus/steppers/model.h>
 
 #include <cmath>
@@ -11,9 +12,22 @@ namespace Talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <int dim>
+    std::unique_ptr<Grid<dim>> make_grid(Parameters &parameters, const Communicator &communicator)
+    {
+      const std::string section = "/Grid";
+      if (parameters.choose_from(section, "Type", "box", "box|mesh",
+                                 "box: equal cells; mesh: triangles or tetrahedra.") == "box")
+        return std::make_unique<BoxGrid<dim>>(section, communicator);
+      return std::make_unique<SimplexGrid<dim>>(section, communicator);
+    }
+  } // namespace
+
   template <int dim>
   Model<dim>::Model(Parameters &parameters, const Communicator &communicator) :
-    ParameterAcceptor("/Run"), grid("/Grid", communicator),
+    ParameterAcceptor("/Run"), own_grid(make_grid<dim>(parameters, communicator)), grid(*own_grid),
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
@@ -86,14 +100,14 @@ namespace Talus
         throw EntryError("/Kernel", "Type",
                          "the domains of '" + body->name + "' would follow its deformation gradient, and a fluid has "
                          "none. Take a B-spline.");
-      body->shape->create(grid.lattice.h);
+      body->shape->create(grid.spacing);
     }
     check_memory();
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
     kernel->attach(grid);
     if (reach.ghosts)
-      walls.attach(grid);
+      walls.attach(box_grid(grid, "/Kernel", "Boundary treatment"));
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
     if (!bodies.empty())
@@ -136,7 +150,7 @@ namespace Talus
       return {};
     double sum = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      sum += std::pow(grid.lattice.smallest_spacing() * grid.lattice.inverse_h[d], 2);
+      sum += std::pow(grid.smallest_spacing * grid.inverse_spacing[d], 2);
     return 1 / std::sqrt(*greatest * sum);
   }
 
@@ -182,10 +196,7 @@ namespace Talus
       return value;
     };
     std::ostringstream text;
-    text << "  grid       ";
-    for (unsigned int d = 0; d < dim; ++d)
-      text << (d == 0 ? "" : " x ") << grid.lattice.n_cells[d];
-    text << " cells, " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
+    text << "  grid       " << grid.summary() << ", " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
          << bodies.size()
          << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
          << "  kernel     " << chosen("Kernel", "Type")

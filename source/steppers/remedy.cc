@@ -53,7 +53,10 @@ namespace Talus
     if (face == 2 * dim) // not a number
       return remedy_of_instability(model);
 
-    const auto         of_face = model.grid.nodes_on_boundary(face);
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
+    if (box == nullptr)
+      return "Give the boundary there a condition, enlarge the mesh, or take smaller steps.";
+    const auto         of_face = box->nodes_on_boundary(face);
     std::vector<bool>  is_held(model.grid.fields.n_owned(), false);
     for (const auto &condition : model.boundary.conditions)
       for (const auto &list : condition->owned_nodes())
@@ -66,8 +69,8 @@ namespace Talus
       bool is_edge = false;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const int index = model.grid.node_index[i][d];
-        is_edge         = is_edge || (d != face / 2 && (index == 0 || index == model.grid.lattice.n_cells[d]));
+        const int index = box->node_index[i][d];
+        is_edge         = is_edge || (d != face / 2 && (index == 0 || index == box->lattice.n_cells[d]));
       }
       n_held += is_held[i] && !is_edge;
     }

@@ -31,7 +31,7 @@ namespace Talus
     // another rank may bring new ones.
     if (since_activation > 1 || has_new_nodes || last.needs_activation)
     {
-      model.grid.activate(model.particles.stencil_beginnings(), model.particles.n_stencil_nodes);
+      model.grid.activate(model.particles.used_places());
       model.particles.update_open_places();
       model.boundary.select(model.grid);
       model.walls.select();

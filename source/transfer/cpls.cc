@@ -1,5 +1,6 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/registry.h>
+#include <talus/grid/box_grid.h>
 #include <talus/particles/corners.h>
 #include <talus/transfer/flip.h>
 #include <talus/transfer/imls_domains.h>
@@ -70,6 +71,7 @@ namespace Talus
       template <class Fit>
       void scatter(const WorkingSet<dim> &particles, const Grid<dim> &grid, Fit &fit) const
       {
+        const auto        &lattice = box_grid(grid, "/Transfer", "Type").lattice;
         const Corners<dim> corners(particles, half_edges);
         const auto         v = particles.template components<dim>(particles.velocity);
         const auto         L = particles.template components<dim * dim>(particles.grad_v);
@@ -80,13 +82,13 @@ namespace Talus
           const auto r     = corners.half_edges(batch);
           domains.value    = load_vector<dim>(batch, v);
           domains.gradient = load_matrix<dim>(batch, L);
-          domains.point[0] = corners.coordinates(grid.lattice, x);
+          domains.point[0] = corners.coordinates(lattice, x);
           for (unsigned int c = 0; c < corners.n; ++c)
-            domains.point[1 + c] = corners.coordinates(grid.lattice, x + corners.arm(r, c));
+            domains.point[1 + c] = corners.coordinates(lattice, x + corners.arm(r, c));
           for (unsigned int d = 0; d < dim; ++d)
             for (unsigned int a = 0; a < dim; ++a)
-              domains.gradient[d][a] *= grid.lattice.h[a];
-          add(domains, batch.size(), grid.lattice, fit);
+              domains.gradient[d][a] *= lattice.h[a];
+          add(domains, batch.size(), lattice, fit);
         });
       }
 

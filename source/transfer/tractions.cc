@@ -155,7 +155,7 @@ namespace Talus
     }
     SurfaceSpacing<dim> spacing;
     for (unsigned int d = 0; d < dim; ++d)
-      spacing[d] = grid.lattice.h[d] / points_per_cell;
+      spacing[d] = grid.spacing[d] / points_per_cell;
     const auto names = body.shape->face_names();
     if (names.empty())
       throw EntryError(get_section_name(), "Body",
@@ -174,13 +174,13 @@ namespace Talus
         {
           bool is_inside = true;
           for (unsigned int d = 0; d < lower.size(); ++d)
-            is_inside = is_inside && grid.lattice.is_between(point.x[d], lower[d], upper[d], d);
+            is_inside = is_inside && grid.is_between(point.x[d], lower[d], upper[d], d);
           if (!is_inside)
             continue;
           surface.push_back(point);
           if (!body.is_clipped)
             continue;
-          surface.back().area *= grid.lattice.share_inside(surface.back().x);
+          surface.back().area *= grid.share_inside(surface.back().x);
           if (surface.back().area.norm() == 0)
             surface.pop_back();
         }
@@ -210,7 +210,7 @@ namespace Talus
           const Tensor<1, dim> N   = point.area / point.area.norm();
           double               sum = 0;
           for (unsigned int d = 0; d < dim; ++d)
-            sum += std::pow(N[d] * points_per_cell * grid.lattice.inverse_h[d], 2);
+            sum += std::pow(N[d] * points_per_cell * grid.inverse_spacing[d], 2);
           const double thickness = 1 / std::sqrt(sum);
           anchor.arm             = thickness * (1 - (k + 0.5) / n_layers) * N;
           middle -= (k + 0.5) * thickness * N;
@@ -229,7 +229,7 @@ namespace Talus
       anchors[a].offset -= host;
       anchors[a].arm += (middles[a] - host) / n_layers;
     }
-    if (kind == "force" && best[0][0] > grid.lattice.diagonal_square())
+    if (kind == "force" && best[0][0] > grid.diagonal_square())
       throw EntryError(get_section_name(), "Position",
                        "no particle of '" + body_name +
                          "' lies within a cell's diagonal of this point. Move it to the body.");

@@ -177,7 +177,7 @@ namespace Talus
       if (!(speed > 0))
         continue;
       const auto range = material_range(particles, m, dt);
-      smooth(*materials[m], range, kernel, std::min(1., speed * dt / grid.lattice.smallest_spacing()), particles, grid);
+      smooth(*materials[m], range, kernel, std::min(1., speed * dt / grid.smallest_spacing), particles, grid);
       // A material that smooths has no memory: this gives the stress of the new volume, whatever the step.
       materials[m]->update(range);
     }
@@ -193,7 +193,7 @@ namespace Talus
     std::visit(
       [&](const auto &function) {
         Passes<dim, std::decay_t<decltype(function)>> passes(function, *treatment, range, material.density, gradient,
-                                                             particles, grid.lattice, fields);
+                                                             particles, form->lattice, fields);
         // Nodes that are not active are not read.
         fields.clear(grid.active_nodes);
         passes.scatter();

@@ -130,7 +130,7 @@ void registry()
   auto &kernels    = Registry<Kernel<2>>::get();
   check_error<InputError>("unknown", {"Nothing is registered as 'quartic'"},
                           [&] { kernels.make("quartic", parameters, "/Kernel"); });
-  check_true("selection", kernels.selection() == "CPDI|cubic B-spline|linear|quadratic B-spline|uGIMP");
+  check_true("selection", kernels.selection() == "C1 UMLS|CPDI|P1|UMLS|cubic B-spline|linear|quadratic B-spline|uGIMP");
   bool is_rejected = false;
   try
   {

@@ -78,6 +78,7 @@ void batches()
   const std::vector<std::array<std::string, 3>> laws{
     {{"linear elastic", "linear elastic", elastic}},
     {{"neo-Hookean", "neo-Hookean", elastic}},
+    {{"Hooke", "Hooke", elastic}},
     {{"perfect", "von Mises", soft}},
     {{"linear", "von Mises", soft + set("Hardening", "linear") + set("Hardening modulus", "5")}},
     {{"softening", "von Mises",

@@ -10,6 +10,10 @@ void energy_and_wave_speed();
 void plane_strain();
 void parameter_errors();
 
+namespace hooke
+{
+  void uniaxial_and_general();
+}
 namespace neo_hookean
 {
   void uniaxial_strain();
@@ -97,6 +101,7 @@ int main(int argc, char **argv)
                     {"linear elastic: energy and wave speed", energy_and_wave_speed},
                     {"linear elastic: plane strain", plane_strain},
                     {"linear elastic: parameter errors", parameter_errors},
+                    {"Hooke: uniaxial strain, and any", hooke::uniaxial_and_general},
                     {"neo-Hookean: uniaxial strain", neo_hookean::uniaxial_strain},
                     {"neo-Hookean: simple shear", neo_hookean::simple_shear},
                     {"neo-Hookean: energy and stress", neo_hookean::energy_and_stress},

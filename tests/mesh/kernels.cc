@@ -15,13 +15,13 @@ namespace
   struct Kernel
   {
     std::string                                                                                  name;
-    std::function<void(const unsigned int cell, const Coordinates<dim> &x, NodeList<dim> &list)> evaluate;
+    std::function<void(const unsigned int cell, const Coordinates<dim> &x, Stencil<dim> &list)> evaluate;
   };
 
   template <class Weight, int dim>
   Kernel<dim> umls_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
-    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
+    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
               umls<Weight>(mesh, c, x.data(), options, list);
             }};
   }
@@ -30,7 +30,7 @@ namespace
   Kernel<dim> c1_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
     return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
-                                                                  NodeList<dim> &list) {
+                                                                  Stencil<dim> &list) {
               c1_umls<Weight>(mesh, feet[c], c, x.data(), options, list);
             }};
   }
@@ -38,7 +38,7 @@ namespace
   template <int dim>
   Kernel<dim> p1_kernel(const Mesh<dim> &mesh)
   {
-    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, NodeList<dim> &list) {
+    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
               p1(mesh, c, x.data(), list);
             }};
   }
@@ -69,15 +69,15 @@ namespace
     Values(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int cell, const Coordinates<dim> &x) :
       weight(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
     {
-      static NodeList<dim> list;
+      static Stencil<dim> list;
       kernel.evaluate(cell, x, list);
-      for (unsigned int k = 0; k < list.padded_size; ++k)
+      for (unsigned int k = 0; k < (list.size + 7) / 8 * 8; ++k)
       {
-        weight[list.node[k]] += list.weight[k];
+        weight[list.place[k]] += list.weight[k];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          gradient[list.node[k]][d] += list.gradient[d][k];
-          raise(offset_error, list.offset[d][k] - (mesh.position[list.node[k]][d] - x[d]));
+          gradient[list.place[k]][d] += list.gradient[d][k];
+          raise(offset_error, list.offset[d][k] - (mesh.position[list.place[k]][d] - x[d]));
         }
       }
     }
@@ -260,6 +260,42 @@ void line()
   }
 }
 
+/** Where the nodes of a wall are held, the functions of all others vanish on it, whatever the mesh; the sums remain. */
+template <int dim>
+void held()
+{
+  for (const auto &[name, of_name] : meshes<dim>())
+  {
+    Mesh<dim>         mesh = of_name;
+    std::vector<char> is_held(mesh.n_nodes());
+    for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
+      is_held[v] = mesh.position[v][0] < 1e-9;
+    mesh.hold(is_held);
+    for (const auto &kernel : {umls_kernel<CubicWeight>("UMLS", mesh, {local, true}),
+                               c1_kernel<CubicWeight>("C1 UMLS", mesh, {local, true})})
+    {
+      double unity = 0, linear = 0, at_wall = 0;
+      for_points(mesh, 2, [&](const unsigned int c, const Coordinates<dim> &x) {
+        const Values<dim> at(mesh, kernel, c, x);
+        double            sum = -1, first = 0;
+        for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
+        {
+          sum += at.weight[v];
+          for (unsigned int d = 0; d < dim; ++d)
+            first += at.weight[v] * (mesh.position[v][d] - x[d]);
+          if (x[0] < 1e-12 && !is_held[v])
+            raise(at_wall, at.weight[v]);
+        }
+        raise(unity, sum);
+        raise(linear, first);
+      });
+      check(name + ", " + kernel.name + ": functions at the wall", at_wall, 1e-6);
+      check(name + ", " + kernel.name + ": partition of unity", unity, 1e-6);
+      check(name + ", " + kernel.name + ": linear fields", linear, 1e-6);
+    }
+  }
+}
+
 template void reproduction<2>();
 template void reproduction<3>();
 template void continuity<1>();
@@ -270,3 +306,5 @@ template void ablation<3>();
 template void true_gradient<1>();
 template void true_gradient<2>();
 template void true_gradient<3>();
+template void held<2>();
+template void held<3>();

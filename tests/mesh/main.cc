@@ -9,11 +9,16 @@ DECLARE(reproduction)
 DECLARE(continuity)
 DECLARE(ablation)
 DECLARE(true_gradient)
+DECLARE(held)
 DECLARE(mesh_file)
 DECLARE(location)
 DECLARE(many_particles)
 DECLARE(parts)
 DECLARE(moving_between_parts)
+DECLARE(generated_mesh)
+DECLARE(particles_on_a_mesh)
+DECLARE(transfers_on_a_mesh)
+void mesh_grid_errors();
 void parts_errors();
 void many_moves_between_parts();
 void wrong_meshes();
@@ -39,6 +44,8 @@ int main(int argc, char **argv)
                     {"true gradient 2D", true_gradient<2>},
                     {"true gradient 3D", true_gradient<3>},
                     {"line", line},
+                    {"held 2D", held<2>},
+                    {"held 3D", held<3>},
                     {"mesh file 2D", mesh_file<2>},
                     {"mesh file 3D", mesh_file<3>},
                     {"wrong meshes", wrong_meshes},
@@ -49,6 +56,13 @@ int main(int argc, char **argv)
                     {"moving between parts 2D", moving_between_parts<2>},
                     {"moving between parts 3D", moving_between_parts<3>},
                     {"parts: errors", parts_errors},
+                    {"generated mesh 2D", generated_mesh<2>},
+                    {"generated mesh 3D", generated_mesh<3>},
+                    {"particles on a mesh 2D", particles_on_a_mesh<2>},
+                    {"particles on a mesh 3D", particles_on_a_mesh<3>},
+                    {"transfers on a mesh 2D", transfers_on_a_mesh<2>},
+                    {"transfers on a mesh 3D", transfers_on_a_mesh<3>},
+                    {"mesh grid: errors", mesh_grid_errors},
                     {"long: many particles 3D", many_particles<3>},
                     {"long: many moves between parts 3D", many_moves_between_parts}});
 }

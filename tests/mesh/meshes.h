@@ -1,5 +1,7 @@
 #pragma once
 
+#include "../setup.h"
+
 #include <talus/grid/mesh_check.h>
 #include <talus/grid/mesh_file.h>
 
@@ -170,12 +172,5 @@ namespace Test
         if (const unsigned int beyond = mesh.neighbours[c][k]; beyond != mesh.missing && beyond > c)
           for (unsigned int i = 0; i < n; ++i)
             visit(c, beyond, point(mesh, c, barycentric<dim>(random, 1u << k)));
-  }
-
-  inline void raise(double &greatest, const double value)
-  {
-    // NaN must stay.
-    if (!(std::abs(value) <= greatest))
-      greatest = std::abs(value);
   }
 } // namespace Test

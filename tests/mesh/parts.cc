@@ -33,11 +33,11 @@ namespace
   std::map<Coordinates<dim>, double> weights(const Mesh<dim> &mesh, const unsigned int cell, const Coordinates<dim> &x)
   {
     const auto    feet = foot_coordinates(mesh);
-    NodeList<dim> list;
+    Stencil<dim> list;
     c1_umls<CubicWeight>(mesh, feet[cell], cell, x.data(), {}, list);
     std::map<Coordinates<dim>, double> weights;
     for (unsigned int k = 0; k < list.size; ++k)
-      weights[mesh.position[list.node[k]]] = list.weight[k];
+      weights[mesh.position[list.place[k]]] = list.weight[k];
     return weights;
   }
 } // namespace

@@ -272,7 +272,7 @@ void unknown_nodes()
     const std::vector<std::string> words{"Particle " + std::to_string(set.id[3]),
                                          "beyond the nodes that its rank knows"};
     check_error<RunError>("sort, x = " + std::to_string(x), words, [&] { set.sort(); });
-    check_error<RunError>("activate, x = " + std::to_string(x), words, [&] { set.stencil_beginnings(); });
+    check_error<RunError>("activate, x = " + std::to_string(x), words, [&] { set.used_places(); });
     set.component(set.position, 0)[3] = before;
   }
   set.sort();

@@ -102,6 +102,18 @@ namespace Talus
   protected:
     virtual void prescribe(const double time, Grid<dim> &grid) = 0;
 
+    /** Calls `body(i)` for all its active nodes. */
+    template <class Body>
+    void for_each_node(const Body &body) const
+    {
+      for (const auto &list : nodes)
+        for (const unsigned int i : list)
+          body(i);
+      for (const auto &part : parts)
+        for (const unsigned int i : part.nodes)
+          body(i);
+    }
+
     /** Sets a component of a node's velocity and records what it costs. */
     void set(const unsigned int i, const unsigned int component, const double velocity)
     {
@@ -137,16 +149,31 @@ namespace Talus
       node[Fields::increment + component] = 0;
     }
 
+    /** Sets the component along a unit vector of a node's velocity and records what it costs. */
+    void set(const unsigned int i, const dealii::Tensor<1, dim> &n, const double velocity);
+
+    /** Sets the components of a node's velocity and of its acceleration along a unit vector to zero. */
+    void arrest(const unsigned int i, const dealii::Tensor<1, dim> &n);
+
     Prescribed<dim>                       *prescribed = nullptr; // where velocities are solved for
     std::vector<unsigned int>              boundary_ids;
     std::vector<unsigned int>              faces; // 2 axis + side: boundary ids, and faces parallel to the half spaces
     std::vector<std::vector<unsigned int>> nodes; // active, of each of these; of the box in the last list
+    std::vector<std::string>               boundaries; // names or numbers of a mesh's groups of faces
+    std::vector<BoundaryPart<dim>>         parts;      // active nodes of these, with normals
 
   private:
+    /** Finds the nodes of the named parts of a mesh's boundary. */
+    void attach_parts(const Grid<dim> &grid);
+
+    /** Counts the component along n as held; returns whether it was free until now. */
+    bool hold(const unsigned int i, const dealii::Tensor<1, dim> &n);
+
     /** Enters "x <= 0.1" into `faces` and `positions`. */
     void read_half_space(const std::string &text);
 
     std::vector<std::vector<unsigned int>> all_nodes; // owned
+    std::vector<BoundaryPart<dim>>         all_parts; // the same
     std::vector<std::string>               half_spaces;
     std::vector<double>                    positions; // of their planes [length]
     std::vector<double>                    lower, upper;

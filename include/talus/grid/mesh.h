@@ -43,6 +43,18 @@ namespace Talus
      */
     void reinit(std::vector<Vector> positions, std::vector<Corners> cells);
 
+    /**
+     * Makes the moving least squares of all other nodes vanish on faces whose vertices are all held, as P1 does: where
+     * conditions hold the nodes of a wall, its traction then acts on these alone. The vertices that are held no longer
+     * count among those which other nodes touch.
+     */
+    void hold(const std::vector<char> &is_held);
+
+    /** A point at which no node counts that is not held has a share of this in each vertex of its cell. */
+    static constexpr double least_share = 1e-9;
+
+    bool has_held(const unsigned int cell) const { return !held.empty() && held[cell] != 0; }
+
     unsigned int n_nodes() const { return position.size(); }
     unsigned int n_cells() const { return nodes.size(); }
 
@@ -54,6 +66,7 @@ namespace Talus
     std::vector<unsigned int> owner;      // rank
     std::vector<unsigned int> number;     // of the cell at its owner
     Rings                     rings;
+    std::vector<char>         held; // whether a cell has vertices that are held; empty: none has
 
     double longest_edge = 0; // [length]
 

@@ -52,6 +52,9 @@ namespace Talus
     /** Where x lies that was in the local cell `cell`; not found when it has left all that this rank knows. */
     Location find_from(const unsigned int cell, const double *x) const { return locate(finder->find_from(cell, x)); }
 
+    /** The local cell that holds x, or Mesh::missing. */
+    unsigned int find_here(const double *x) const { return finder->find(x); }
+
     /** The same for any points, each rank asks for its own; those not found lie outside the mesh. Collective. */
     std::vector<Location> find(const std::vector<typename Mesh<dim>::Vector> &points) const;
 

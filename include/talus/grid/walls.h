@@ -1,7 +1,7 @@
 #pragma once
 
 #include <talus/grid/block_factor.h>
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 #include <talus/grid/prescribed.h>
 
 namespace Talus
@@ -29,7 +29,7 @@ namespace Talus
     using Index = typename Lattice<dim>::Index;
 
     /** Makes ghosts beyond the faces of the grid; without it there are none, and nothing here does anything. */
-    void attach(Grid<dim> &grid);
+    void attach(BoxGrid<dim> &grid);
 
     bool has_ghosts() const { return grid != nullptr; }
 
@@ -150,7 +150,7 @@ namespace Talus
     void   write(const unsigned int c);
     void   account(Prescribed<dim> &prescribed) const;
 
-    Grid<dim> *grid = nullptr;
+    BoxGrid<dim> *grid = nullptr;
 
     // Real wall nodes and ghosts are numbered apart, owned ones first.
     std::vector<unsigned int> real_node, position;     // number in the grid, and back

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <talus/core/exceptions.h>
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/kernels/lattice_batch.h>
 #include <talus/particles/batch_access.h>
@@ -34,7 +34,7 @@ namespace Talus
                          "this treatment is defined for linear kernels and B-splines only. Use 'none' or 'WLS'.");
     }
 
-    void attach(const Grid<dim> &grid) override { lattice = &grid.lattice; }
+    void attach(const Grid<dim> &grid) override { lattice = &box_grid(grid, "/Kernel", "Type").lattice; }
 
     void evaluate(const WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end,
                   Stencil<dim> *stencils) const override

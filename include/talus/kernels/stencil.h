@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/core/simd.h>
+
 #include <deal.II/base/aligned_vector.h>
 
 #include <array>
@@ -15,6 +17,9 @@ namespace Talus
   class Stencil
   {
   public:
+    static constexpr unsigned int width = 8; // there is always room for whole registers
+    using Lanes                         = Simd<width>;
+
     Stencil() { reserve(16); }
 
     /** Makes room for n nodes and forgets what there was. */
@@ -34,6 +39,23 @@ namespace Talus
         offset[d]   = numbers.data() + (1 + d) * capacity;
         gradient[d] = numbers.data() + (1 + dim + d) * capacity;
       }
+    }
+
+    /** The lists in memory, for loops over registers. */
+    struct Arrays
+    {
+      unsigned int           *place;
+      double                 *weight;
+      std::array<double *, dim> offset, gradient;
+      unsigned int            padded_size; // whole registers
+    };
+
+    /** Lists n nodes, whatever they are: all arrays have room for whole registers of them. */
+    Arrays resize(const unsigned int n)
+    {
+      reserve(n);
+      size = n;
+      return {place.data(), weight, offset, gradient, (n + width - 1) / width * width};
     }
 
     unsigned int                          size = 0;

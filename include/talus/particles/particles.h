@@ -1,10 +1,9 @@
 #pragma once
 
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 #include <talus/particles/body.h>
 #include <talus/particles/working_set.h>
 
-#include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/particles/particle_handler.h>
 
 namespace Talus
@@ -40,7 +39,7 @@ namespace Talus
 
     /**
      * Finds out whether the particles begin .. end - 1 can stay with this rank, and
-     * whether one has left the grid; who is beyond a face by round-off is put on it (Lattice::enter()). What is found is
+     * whether one has left the grid; who is beyond a face by round-off is put on it (Grid::enter()). What is found is
      * acted on where the ranks meet next.
      */
     void relocate(const unsigned int begin, const unsigned int end);
@@ -68,8 +67,8 @@ namespace Talus
       sort();
     }
 
-    /** For each entry of the lattice's tables, whether the stencil of a particle begins there. */
-    std::vector<char> stencil_beginnings() const;
+    /** For each place, whether the stencil of a particle begins there. */
+    std::vector<char> used_places() const;
 
     unsigned int n_stencil_nodes = 3; // nodes per axis within reach
 
@@ -87,9 +86,6 @@ namespace Talus
     /** Appends the n particles of the home to the working set, and empties the home. */
     void load(const unsigned int n);
 
-    /** Puts a particle back on the faces of the domain from which round-off has taken it. */
-    void put_on_face(const unsigned int p);
-
     /** What relocate() does for the corners of the particles' domains. */
     void look_at_corners(const unsigned int begin, const unsigned int end);
     template <class Vector, class Matrix>
@@ -101,16 +97,16 @@ namespace Talus
     /** Throws RunError if a corner lies where its owner, this rank, does not know the nodes. */
     void check_corners_are_known();
 
-    /**
-     * Entry of the lattice's tables at which a particle's stencil begins. Throws where this rank does not know all
-     * nodes of the stencil: what the particle carries would be lost there.
-     */
-    unsigned int place(const unsigned int p) const;
+    /** The places of all particles, `none` where this rank does not know all nodes of the stencil. */
+    std::vector<unsigned int> places() const;
+
+    /** Throws if a particle has no place: what it carries would be lost. */
+    void check_place(const unsigned int p, const unsigned int place) const;
 
     unsigned int body_of(const std::uint64_t id) const;
 
-    /** Ranks of the cells of some particles. Collective where this rank does not know a cell. */
-    std::vector<unsigned int> ranks_of(const std::vector<unsigned int> &particles) const;
+    /** Puts a particle that another rank has sent at place p of the working set: its id, its columns, its place. */
+    void unpack(const double *message, const unsigned int p);
 
     /** Copies a particle's numbers to another place. */
     void move(const unsigned int from, const unsigned int to);
@@ -119,17 +115,15 @@ namespace Talus
     void sort(const std::vector<bool> &is_gone);
 
     Grid<dim>                                               *grid = nullptr;
-    std::unique_ptr<dealii::MappingCartesian<dim>>           mapping;
+    const BoxGrid<dim>                                      *box  = nullptr; // the same, where domains have corners
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
 
     std::vector<std::uint64_t> body_begin; // first id of each body
     std::vector<unsigned int>  body_material;
 
     Reach             reach;
-    std::vector<char> coverage; // places from which on all nodes within reach are known
-    std::vector<char> is_open;  // and active; where domains have corners
-    unsigned int      half_edges         = 0;
-    double            stencil_shift      = 0;
-    bool              knows_all_stencils = false; // this rank has the nodes of every stencil in the domain
+    Found             found;
+    std::vector<char> is_open; // places from which on all nodes within reach are active; where domains have corners
+    unsigned int      half_edges = 0;
   };
 } // namespace Talus

@@ -116,6 +116,10 @@ namespace Talus
     std::vector<dealii::types::particle_index> id;
     std::vector<unsigned short>                body;
 
+    /** Where each particle's stencil begins, if the grid wants that kept; else empty. */
+    std::vector<unsigned int> place;
+    bool                      keeps_places = false;
+
     /** Particles material_begin[m] .. material_begin[m + 1] - 1 are of material m. */
     std::vector<unsigned int> material_begin;
 

@@ -50,7 +50,8 @@ namespace Talus
      */
     void move_nodes(const double time, const double dt);
 
-    Grid<dim>                               grid;
+    std::unique_ptr<Grid<dim>>              own_grid;
+    Grid<dim>                              &grid;
     Walls<dim>                              walls;
     std::unique_ptr<Kernel<dim>>            kernel;
     std::unique_ptr<Transfer<dim>>          transfer;

@@ -65,7 +65,7 @@ namespace Talus
           evaluator.evaluate(stencil);
           return BatchGather<dim, Scheme, Function>::gather(lattice, stencil, fields);
         }();
-        displacement = max(displacement, advance(scheme, arrays, batch, sum, dt, lattice));
+        displacement = max(displacement, advance(scheme, arrays, batch, sum, dt, lattice.inverse_h.data()));
       });
       return *std::max_element(displacement.data(), displacement.data() + width);
     }

@@ -29,7 +29,7 @@ namespace Talus
     {
       const auto   uniform_b = acceleration.uniform_value(time);
       const auto  &place     = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
-      const double h         = grid.lattice.largest_spacing();
+      const double h         = grid.largest_spacing;
       Contribution<dim, Scheme> add;
       for_each_list(particles, kernel, 0, particles.size(), [&](const auto batch, const Stencil<dim> *stencils) {
         Vector b;
@@ -67,7 +67,7 @@ namespace Talus
           sums.gather(l, stencils[l], grid.fields);
         for (unsigned int l = batch.size(); l < native_width; ++l)
           sums.repeat(batch.size() - 1, l);
-        displacement = max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.lattice));
+        displacement = max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.inverse_spacing.data()));
       });
       return *std::max_element(displacement.data(), displacement.data() + native_width);
     }

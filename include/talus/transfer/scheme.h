@@ -113,7 +113,7 @@ namespace Talus
   [[gnu::always_inline]] inline typename Batch::Number advance(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                                                const Batch                                 &batch,
                                                                const Gathered<dim, typename Batch::Number> &sum,
-                                                               const double dt, const Lattice<dim> &lattice)
+                                                               const double dt, const double *inverse_spacing)
   {
     const auto x = load_vector<dim>(batch, arrays.position);
     store_vector<dim>(batch, arrays.position, x + dt * sum.velocity); // Eq. (31), for FLIP as well
@@ -121,7 +121,7 @@ namespace Talus
     scheme.update(arrays, batch, sum);
     typename Batch::Number displacement = 0.;
     for (unsigned int d = 0; d < dim; ++d)
-      displacement = max(displacement, abs(sum.velocity[d]) * (dt * lattice.inverse_h[d]));
+      displacement = max(displacement, abs(sum.velocity[d]) * (dt * inverse_spacing[d]));
     return displacement;
   }
 } // namespace Talus

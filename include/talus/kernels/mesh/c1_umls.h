@@ -21,7 +21,7 @@ namespace Talus
    */
   template <class Weight, int dim>
   void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
-               const UmlsOptions &options, NodeList<dim> &list);
+               const UmlsOptions &options, Stencil<dim> &list);
 
   namespace internal
   {
@@ -47,6 +47,7 @@ namespace Talus
               grad_eta[d][u] += shares.slope[u][c] * grad_B[c][d];
           }
         }
+        eta   = at_least_shares(mesh, cell, eta);
         gamma = subset_sums<dim>(eta);
         s     = support_length(mesh, cell, eta, options);
         for (unsigned int d = 0; d < dim; ++d)
@@ -84,10 +85,10 @@ namespace Talus
 
   template <class Weight, int dim>
   void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
-               const UmlsOptions &options, NodeList<dim> &list)
+               const UmlsOptions &options, Stencil<dim> &list)
   {
-    using Lanes               = typename NodeList<dim>::Lanes;
-    constexpr unsigned int w8 = NodeList<dim>::width;
+    using Lanes               = typename Stencil<dim>::Lanes;
+    constexpr unsigned int w8 = Stencil<dim>::width;
     using Sums                = MomentSums<dim, w8>;
 
     const internal::C1Point<dim> point(mesh, feet, cell, x, options);
@@ -101,7 +102,7 @@ namespace Talus
 
     Sums  M;
     Lanes d[dim];
-    for (unsigned int k = 0; k < list.padded_size; k += w8)
+    for (unsigned int k = 0; k < to.padded_size; k += w8)
     {
       Lanes square = 0.;
       for (unsigned int e = 0; e < dim; ++e)
@@ -123,7 +124,7 @@ namespace Talus
     for (auto &row : sums)
       for (auto &entry : row)
         entry = 0.;
-    for (unsigned int k = 0; k < list.padded_size; k += w8)
+    for (unsigned int k = 0; k < to.padded_size; k += w8)
     {
       for (unsigned int e = 0; e < dim; ++e)
         d[e] = inverse_s * Lanes::load(to.offset[e] + k);
@@ -150,7 +151,7 @@ namespace Talus
           row[e][i] -= inverse[i][j] * column[j];
       }
     }
-    for (unsigned int k = 0; k < list.padded_size; k += w8)
+    for (unsigned int k = 0; k < to.padded_size; k += w8)
     {
       for (unsigned int e = 0; e < dim; ++e)
         d[e] = inverse_s * Lanes::load(to.offset[e] + k);

@@ -1,25 +1,25 @@
 #pragma once
 
 #include <talus/grid/mesh.h>
-#include <talus/kernels/mesh/node_list.h>
+#include <talus/kernels/stencil.h>
 
 namespace Talus
 {
   /** Linear functions on simplices: the weights are the barycentric coordinates of x. Test: tests/mesh/kernels.cc. */
   template <int dim>
-  void p1(const Mesh<dim> &mesh, const unsigned int cell, const double *x, NodeList<dim> &list)
+  void p1(const Mesh<dim> &mesh, const unsigned int cell, const double *x, Stencil<dim> &list)
   {
     const auto B = mesh.barycentric(cell, x);
     const auto g = mesh.gradients(cell);
-    list.resize(dim + 1);
-    for (unsigned int k = 0; k < list.padded_size; ++k)
+    const auto to = list.resize(dim + 1);
+    for (unsigned int k = 0; k < to.padded_size; ++k)
     {
       const bool is_real = k <= dim;
-      list.node[k]       = mesh.nodes[cell][is_real ? k : 0];
+      list.place[k]       = mesh.nodes[cell][is_real ? k : 0];
       list.weight[k]     = is_real ? B[k] : 0.;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        list.offset[d][k]   = mesh.position[list.node[k]][d] - x[d];
+        list.offset[d][k]   = mesh.position[list.place[k]][d] - x[d];
         list.gradient[d][k] = is_real ? g[k][d] : 0.;
       }
     }

@@ -2,8 +2,10 @@
 
 #include <talus/grid/mesh.h>
 #include <talus/kernels/mesh/moment_sums.h>
-#include <talus/kernels/mesh/node_list.h>
+#include <talus/kernels/stencil.h>
 #include <talus/kernels/mesh/weights.h>
+
+#include <algorithm>
 
 namespace Talus
 {
@@ -32,13 +34,24 @@ namespace Talus
     return sums;
   }
 
+  /** The shares of a cell's vertices, none of them zero where nodes are held: their moments would be singular. */
+  template <int dim>
+  std::array<double, dim + 1> at_least_shares(const Mesh<dim> &mesh, const unsigned int cell,
+                                              std::array<double, dim + 1> share)
+  {
+    if (mesh.has_held(cell))
+      for (double &s : share)
+        s = std::max(s, mesh.least_share);
+    return share;
+  }
+
   /**
    * Lists the ring of a cell: nodes and offsets; calls `body(lists, k, touches)` for each entry,
    * touches = 0 for the filling.
    */
   template <int dim, class Body>
-  typename NodeList<dim>::Arrays list_ring(const Mesh<dim> &mesh, const unsigned int cell, const double *x,
-                                           NodeList<dim> &list, const Body &body)
+  typename Stencil<dim>::Arrays list_ring(const Mesh<dim> &mesh, const unsigned int cell, const double *x,
+                                           Stencil<dim> &list, const Body &body)
   {
     const std::size_t    begin    = mesh.rings.begin[cell];
     const unsigned int  *ring     = &mesh.rings.node[begin];
@@ -46,7 +59,7 @@ namespace Talus
     const auto          *position = mesh.position.data();
     const auto           to       = list.resize(mesh.rings.size(cell));
     const auto           set      = [&](const unsigned int k, const unsigned int v) {
-      to.node[k] = v;
+      to.place[k] = v;
       for (unsigned int d = 0; d < dim; ++d)
         to.offset[d][k] = position[v][d] - x[d];
     };
@@ -55,7 +68,7 @@ namespace Talus
       set(k, ring[k]);
       body(to, k, touches[k]);
     }
-    for (unsigned int k = list.size; k < list.padded_size; ++k)
+    for (unsigned int k = list.size; k < to.padded_size; ++k)
     {
       set(k, ring[0]);
       body(to, k, 0);
@@ -85,12 +98,12 @@ namespace Talus
    */
   template <class Weight, int dim>
   void umls(const Mesh<dim> &mesh, const unsigned int cell, const double *x, const UmlsOptions &options,
-            NodeList<dim> &list)
+            Stencil<dim> &list)
   {
-    using Lanes               = typename NodeList<dim>::Lanes;
-    constexpr unsigned int w8 = NodeList<dim>::width;
+    using Lanes               = typename Stencil<dim>::Lanes;
+    constexpr unsigned int w8 = Stencil<dim>::width;
 
-    const auto   B         = mesh.barycentric(cell, x);
+    const auto   B         = at_least_shares(mesh, cell, mesh.barycentric(cell, x));
     const double inverse_s = 1 / support_length(mesh, cell, B, options);
     const auto   gamma     = subset_sums<dim>(B);
     const auto   to =
@@ -100,7 +113,7 @@ namespace Talus
 
     MomentSums<dim, w8> M;
     Lanes               d[dim];
-    for (unsigned int k = 0; k < list.padded_size; k += w8)
+    for (unsigned int k = 0; k < to.padded_size; k += w8)
     {
       Lanes square = 0.;
       for (unsigned int e = 0; e < dim; ++e)
@@ -114,7 +127,7 @@ namespace Talus
     }
 
     const auto inverse = M.inverse();
-    for (unsigned int k = 0; k < list.padded_size; k += w8)
+    for (unsigned int k = 0; k < to.padded_size; k += w8)
     {
       const Lanes weight = Lanes::load(to.weight + k);
       for (unsigned int e = 0; e < dim; ++e)

@@ -1,4 +1,4 @@
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 
 #include <deal.II/dofs/dof_tools.h>
 
@@ -24,9 +24,9 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  void Grid<dim>::number_nodes()
+  void BoxGrid<dim>::number_nodes()
   {
-    dof_handler.distribute_dofs(fe);
+    dof_handler.distribute_dofs(this->fe);
 
     // Lexicographic order of the nodes this rank owns.
     std::vector<std::pair<std::array<int, dim>, types::global_dof_index>> owned;
@@ -52,7 +52,7 @@ namespace Talus
   }
 
   template <int dim>
-  void Grid<dim>::fill_tables(const unsigned int n_layers)
+  void BoxGrid<dim>::fill_tables(const unsigned int n_layers)
   {
     typename Lattice<dim>::Index first, last;
     first.fill(std::numeric_limits<int>::max());
@@ -108,12 +108,11 @@ namespace Talus
     nodes.reinit(owned, known, communicator, places, lattice.node.size());
     fields.reinit(nodes);
     lattice.find_images();
-    is_active.assign(fields.n_local(), true);
-    collect_active_nodes();
+    this->activate_all();
   }
 
   template <int dim>
-  void Grid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs, IndexSet &known)
+  void BoxGrid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs, IndexSet &known)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -184,9 +183,9 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void Grid<dim>::number_nodes();                                                                             \
-  template void Grid<dim>::fill_tables(const unsigned int);                                                            \
-  template void Grid<dim>::learn_layers(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
+  template void BoxGrid<dim>::number_nodes();                                                                             \
+  template void BoxGrid<dim>::fill_tables(const unsigned int);                                                            \
+  template void BoxGrid<dim>::learn_layers(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,6 +1,6 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/memory.h>
-#include <talus/grid/grid.h>
+#include <talus/grid/box_grid.h>
 
 #include <iomanip>
 #include <iostream>
@@ -24,34 +24,41 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  Grid<dim>::Grid(const std::string &section, const Communicator &communicator) :
-    ParameterAcceptor(section), communicator(communicator),
-    triangulation(communicator, Triangulation<dim>::none,
-                  parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
-    dof_handler(triangulation), fe(1), lower_corner(dim, 0.), upper_corner(dim, 1.)
+  BoxTriangulation<dim>::BoxTriangulation(MPI_Comm communicator) :
+    p4est(communicator, Triangulation<dim>::none,
+          parallel::distributed::Triangulation<dim>::communicate_vertices_to_p4est),
+    fe(1), dofs(p4est)
+  {
+  }
+
+  template <int dim>
+  BoxGrid<dim>::BoxGrid(const std::string &section, const Communicator &communicator) :
+    BoxTriangulation<dim>(communicator),
+    Grid<dim>(section, communicator, this->p4est, this->dofs, this->cartesian), lower_corner(dim, 0.),
+    upper_corner(dim, 1.)
   {
     const Patterns::List numbers(Patterns::Double(), dim, dim);
-    add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", prm,
+    this->add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", this->prm,
                   numbers);
-    add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", prm,
+    this->add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", this->prm,
                   numbers);
-    add_parameter("Spacing", spacing,
-                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", prm,
+    this->add_parameter("Spacing", spacings,
+                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", this->prm,
                   Patterns::List(Patterns::Double(0), 0, dim));
-    add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", prm,
+    this->add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", this->prm,
                   Patterns::List(Patterns::Integer(1), 0, dim));
   }
 
   template <int dim>
-  void Grid<dim>::parse_parameters(ParameterHandler &)
+  void BoxGrid<dim>::parse_parameters(ParameterHandler &)
   {
     constexpr double   most    = 1 << 29; // an index and its mirror image must fit into an int
-    const std::string &section = get_section_name();
-    if (spacing.empty() == cell_counts.empty())
+    const std::string &section = this->get_section_name();
+    if (spacings.empty() == cell_counts.empty())
       throw EntryError(section, "Spacing", "give either 'Spacing' or 'Cells', and not both.");
-    if (!spacing.empty() && spacing.size() != 1 && spacing.size() != dim)
+    if (!spacings.empty() && spacings.size() != 1 && spacings.size() != dim)
       throw EntryError(section, "Spacing", "give one number or " + std::to_string(dim) + ".");
-    if (spacing.empty() && cell_counts.size() != dim)
+    if (spacings.empty() && cell_counts.size() != dim)
       throw EntryError(section, "Cells", "give " + std::to_string(dim) + " numbers.");
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -60,10 +67,10 @@ namespace Talus
       upper[d]            = upper_corner[d];
       if (!(length > 0))
         throw EntryError(section, "Upper corner", "it must lie above the lower corner in every direction.");
-      double count = spacing.empty() ? cell_counts[d] : 0;
-      if (!spacing.empty())
+      double count = spacings.empty() ? cell_counts[d] : 0;
+      if (!spacings.empty())
       {
-        const double wanted = spacing.size() == 1 ? spacing[0] : spacing[d];
+        const double wanted = spacings.size() == 1 ? spacings[0] : spacings[d];
         if (!(wanted > 0))
           throw EntryError(section, "Spacing", "it must be positive.");
         count = std::round(length / wanted);
@@ -73,7 +80,7 @@ namespace Talus
                              std::string(1, "xyz"[d]) + ". Move a corner so that it becomes a whole number.");
       }
       if (!(count <= most))
-        throw EntryError(section, spacing.empty() ? "Cells" : "Spacing",
+        throw EntryError(section, spacings.empty() ? "Cells" : "Spacing",
                          "the box is " + to_text(count) + " cells long in direction " + std::string(1, "xyz"[d]) +
                            ", too many to be numbered. " + coarser);
       lattice.n_cells[d]   = static_cast<int>(count);
@@ -81,11 +88,31 @@ namespace Talus
       lattice.h[d]         = length / lattice.n_cells[d];
       lattice.inverse_h[d] = lattice.n_cells[d] / length;
     }
+    this->spacing          = lattice.h;
+    this->inverse_spacing  = lattice.inverse_h;
+    this->smallest_spacing = lattice.smallest_spacing();
+    this->largest_spacing  = lattice.largest_spacing();
     check_memory();
   }
 
   template <int dim>
-  void Grid<dim>::check_memory() const
+  std::string BoxGrid<dim>::extent() const
+  {
+    return "which reaches from " + Talus::to_text<dim>(lower) + " to " + Talus::to_text<dim>(upper);
+  }
+
+  template <int dim>
+  std::string BoxGrid<dim>::summary() const
+  {
+    std::ostringstream text;
+    for (unsigned int d = 0; d < dim; ++d)
+      text << (d == 0 ? "" : " x ") << lattice.n_cells[d];
+    text << " cells";
+    return text.str();
+  }
+
+  template <int dim>
+  void BoxGrid<dim>::check_memory() const
   {
     // What deal.II's triangulation and numbers of nodes take at least: measured on grids of a million cells.
     constexpr double bytes_per_cell = dim == 2 ? 600 : 1800;
@@ -106,9 +133,9 @@ namespace Talus
     const std::string takes = "the grid's " + to_text(n_cells) + " cells take " + to_text(wanted / 1e9) +
                               " GB at least, and there are " + to_text(has / 1e9) + " GB of memory. ";
     if (wanted > has)
-      throw EntryError(get_section_name(), spacing.empty() ? "Cells" : "Spacing", takes + coarser);
+      throw EntryError(this->get_section_name(), spacings.empty() ? "Cells" : "Spacing", takes + coarser);
     if (n_nodes > std::numeric_limits<types::global_dof_index>::max())
-      throw EntryError(get_section_name(), spacing.empty() ? "Cells" : "Spacing",
+      throw EntryError(this->get_section_name(), spacings.empty() ? "Cells" : "Spacing",
                        "the grid has " + to_text(n_nodes) +
                          " nodes, more than this deal.II can number. Use one with 64-bit indices. " + coarser);
     if (wanted > has / 2 && Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -116,9 +143,12 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template Grid<dim>::Grid(const std::string &, const Communicator &);                                                 \
-  template void Grid<dim>::parse_parameters(ParameterHandler &);                                                       \
-  template void Grid<dim>::check_memory() const;
+  template struct BoxTriangulation<dim>;                                                                               \
+  template BoxGrid<dim>::BoxGrid(const std::string &, const Communicator &);                                           \
+  template void        BoxGrid<dim>::parse_parameters(ParameterHandler &);                                             \
+  template void        BoxGrid<dim>::check_memory() const;                                                             \
+  template std::string BoxGrid<dim>::extent() const;                                                                   \
+  template std::string BoxGrid<dim>::summary() const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,0 +1,61 @@
+"""Two halves of a square set off in opposite directions: Cao et al., what APIC conserves on triangles."""
+import math
+import pathlib
+import subprocess
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+import report
+import runs as program
+from runs import Run
+
+TITLE = "APIC on triangles: momentum and angular momentum of P1, UMLS and C1 UMLS"
+MESH = pathlib.Path("prm/meshes/square.msh")
+
+
+def mesh():
+    """By gmsh, which has to be installed: Debian's package of that name."""
+    directory = program.ROOT / MESH.parent
+    subprocess.run(["gmsh", "-2", "-format", "msh41", "square.geo", "-o", MESH.name], cwd=directory, check=True,
+                   stdout=subprocess.DEVNULL)
+
+
+def runs():
+    mesh()
+    return [Run("prm/umls_apic.prm", {"Kernel/Type": kernel}, {"kernel": kernel}) for kernel in ("P1", "UMLS", "C1 UMLS")]
+
+
+def drifts(result):
+    """Largest changes of angular momentum, the affine fields' share included, over its start, and of momentum over M v."""
+    if result.status != 0:
+        return math.nan, math.nan
+    columns = result.statistics()
+    L = columns["total angular momentum z"]
+    momentum = max(np.max(np.abs(columns[name] - columns[name][0])) for name in ("momentum x", "momentum y"))
+    return np.max(np.abs(L - L[0])) / abs(L[0]), momentum / (columns["mass"][0] * 0.1)
+
+
+def table(results):
+    return [{**result.run.label, "angular momentum": drifts(result)[0], "momentum": drifts(result)[1]} for result in results]
+
+
+def figures(results):
+    return [figure for result in results for figure in (
+        report.Figure(f"{result.run.label['kernel']}: change of angular momentum", drifts(result)[0], upper=1e-12),
+        report.Figure(f"{result.run.label['kernel']}: change of momentum", drifts(result)[1], upper=1e-14))]
+
+
+def draw(results, path):
+    figure, axis = plt.subplots(figsize=(5, 3.5), layout="constrained")
+    for result in results:
+        if result.status == 0:
+            columns = result.statistics()
+            L = columns["total angular momentum z"]
+            axis.semilogy(columns["time"], np.abs(L / L[0] - 1) + 1e-17, lw=0.8, label=result.run.label["kernel"])
+    axis.set(xlabel="time", ylabel="change of angular momentum", title="APIC on triangles")
+    axis.legend()
+    figure.savefig(path, dpi=130)
+    plt.close(figure)
