@@ -37,14 +37,11 @@ namespace Talus
       void attach(const Grid<dim> &grid) override
       {
         lattice = &box_grid(grid, "/Kernel", "Type").lattice;
-        for (unsigned int i = 0; i < padded; ++i)
+        for (unsigned int i = 0; i < n_box; ++i)
         {
           place_in_box[i] = 0;
-          for (unsigned int d = 0, rest = std::min(i, n_box - 1); d < dim; ++d, rest /= usual_extent)
-          {
-            offset_in_box[d][i] = rest % usual_extent * lattice->h[d];
+          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= usual_extent)
             place_in_box[i] += rest % usual_extent * lattice->stride[d];
-          }
         }
       }
 
@@ -74,7 +71,6 @@ namespace Talus
       static constexpr unsigned int usual_extent = 3;
       static constexpr unsigned int n_inner = dim == 2 ? usual_extent : usual_extent * usual_extent; // of a layer
       static constexpr unsigned int n_box   = n_inner * usual_extent;
-      static constexpr unsigned int padded  = (n_box + 7) / 8 * 8;
 
       /** The domains of a batch, one in each lane. */
       struct Domains
@@ -126,8 +122,8 @@ namespace Talus
       }
 
       /**
-       * Lists the nodes of boxes, those of several corners once: sums over corners with a domain in each lane, then
-       * transposed. Nodes of the box that no corner sees have weight 0; those beyond a domain's last layer are left out.
+       * Lists the nodes of boxes, those of several corners once: sums over corners, with a domain in each lane. Nodes of
+       * the box that no corner sees have weight 0; those beyond a domain's last layer are left out.
        */
       void list_boxes(const Domains &found, const unsigned int size, Stencil<dim> *stencils) const
       {
@@ -149,13 +145,11 @@ namespace Talus
               outer[k][c][1 + d] = along[last][k] * found.gradient[c][d];
           }
         }
-        Number sums[1 + dim][padded];
-        for (unsigned int i = n_listed; i < (n_listed + 7) / 8 * 8; ++i)
-          for (unsigned int j = 0; j <= dim; ++j)
-            sums[j][i] = 0.;
+        double *numbers = stencils[0].keep(Stencil<dim>::n_columns * n_box * native_width);
         for (unsigned int k = 0; k < n_layers; ++k)
           for (unsigned int i = 0; i < n_inner; i += usual_extent)
-            add_corners(inner, outer[k], i, k * n_inner + i, sums);
+            add_corners(inner, outer[k], i, numbers + (k * n_inner + i) * native_width);
+        set_offsets(found, n_listed, numbers);
 
         alignas(64) int lowest[dim][native_width], extent[native_width];
         for (unsigned int d = 0; d < dim; ++d)
@@ -163,28 +157,23 @@ namespace Talus
         store_integers(found.extent[last], extent);
         for (unsigned int l = 0; l < size; ++l)
         {
-          stencils[l].reserve(padded);
+          stencils[l].share(extent[l] * n_inner, numbers + l, n_box, native_width);
           stencils[l].is_at_slip_wall.fill(false);
-          stencils[l].size = extent[l] * n_inner;
           typename Lattice<dim>::Index first;
           for (unsigned int d = 0; d < dim; ++d)
             first[d] = lowest[d][l];
-          list_places(first, found, l, stencils[l]);
+          const unsigned int place = lattice->table_index(first);
+          unsigned int      *places = stencils[l].place.data();
+#pragma GCC ivdep
+          for (unsigned int i = 0; i < n_box; ++i)
+            places[i] = place + place_in_box[i];
         }
-        for (unsigned int j = 0; j <= dim; ++j)
-          for (unsigned int i = 0; i < n_listed; i += 8)
-          {
-            Simd<8> of_nodes[native_width];
-            lanes_to_vectors<native_width>(reinterpret_cast<const Number(&)[8]>(sums[j][i]), of_nodes);
-            for (unsigned int l = 0; l < size; ++l)
-              of_nodes[l].store((j == 0 ? stencils[l].weight : stencils[l].gradient[j - 1]) + i);
-          }
       }
 
       /** What all corners give to a line of nodes, in registers. */
       [[gnu::always_inline]] static void add_corners(const Number (&inner)[n_corners][n_inner],
                                                      const Number (&outer)[n_corners][1 + dim], const unsigned int i,
-                                                     const unsigned int node, Number (&sums)[1 + dim][padded])
+                                                     double *numbers)
       {
         Number sum[usual_extent][1 + dim];
         for (auto &of_node : sum)
@@ -196,23 +185,19 @@ namespace Talus
               sum[a][j] += inner[c][i + a] * outer[c][j];
         for (unsigned int a = 0; a < usual_extent; ++a)
           for (unsigned int j = 0; j <= dim; ++j)
-            sums[j][node + a] = sum[a][j];
+            sum[a][j].store(numbers + (a + (j == 0 ? 0 : dim + j) * n_box) * native_width);
       }
 
-      /** The places and offsets of a box of usual extent, x running fastest. */
-      void list_places(const typename Lattice<dim>::Index &first, const Domains &found, const unsigned int l,
-                       Stencil<dim> &stencil) const
+      void set_offsets(const Domains &found, const unsigned int n_listed, double *numbers) const
       {
-        const unsigned int place = lattice->table_index(first);
-        unsigned int *places = stencil.place.data();
-#pragma GCC ivdep
-        for (unsigned int i = 0; i < padded; ++i)
-          places[i] = place + place_in_box[i];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const Simd<8> offset = (first[d] - found.x[d].data()[l]) * lattice->h[d];
-          for (unsigned int i = 0; i < stencil.size; i += 8)
-            (offset + Simd<8>::load(offset_in_box[d] + i)).store(stencil.offset[d] + i);
+          Number along[usual_extent];
+          for (unsigned int k = 0; k < usual_extent; ++k)
+            along[k] = (found.lowest[d] + 1. * k - found.x[d]) * lattice->h[d];
+          double *column = numbers + (1 + d) * n_box * native_width;
+          for (unsigned int i = 0, step = d == 0 ? 1 : d == 1 ? usual_extent : n_inner; i < n_listed; ++i)
+            along[i / step % usual_extent].store(column + i * native_width);
         }
       }
 
@@ -269,8 +254,7 @@ namespace Talus
 
       const Lattice<dim> *lattice    = nullptr;
       unsigned int        half_edges = 0, n_layers = 2;
-      unsigned int        place_in_box[padded];       // of a box's nodes, after the first
-      double              offset_in_box[dim][padded]; // [length]
+      unsigned int        place_in_box[n_box]; // of a box's nodes, after the first
     };
 
     const RegisterDimensions<Kernel, Cpdi> registration(

@@ -20,6 +20,15 @@ namespace Talus
     static constexpr unsigned int width = 8; // there is always room for whole registers
     using Lanes                         = Simd<width>;
 
+    /** One number of each node: every `stride`-th from the first on. */
+    struct Column
+    {
+      double     *first  = nullptr;
+      std::size_t stride = 1;
+
+      double &operator[](const std::size_t k) const { return first[k * stride]; }
+    };
+
     Stencil() { reserve(16); }
 
     /** Makes room for n nodes and forgets what there was. */
@@ -27,19 +36,38 @@ namespace Talus
     {
       size       = 0;
       has_images = false;
-      if (n <= place.size())
-        return;
-      const unsigned int capacity = (n + 7) / 8 * 8;
-      place.resize(capacity);
-      beyond.resize(capacity);
-      numbers.resize_fast((1 + 2 * dim) * capacity);
-      weight = numbers.data();
-      for (unsigned int d = 0; d < dim; ++d)
+      if (n > place.size())
       {
-        offset[d]   = numbers.data() + (1 + d) * capacity;
-        gradient[d] = numbers.data() + (1 + dim + d) * capacity;
+        const unsigned int capacity = (n + 7) / 8 * 8;
+        place.resize(capacity);
+        beyond.resize(capacity);
+        numbers.resize_fast(n_columns * capacity);
       }
+      set_columns(numbers.data(), place.size(), 1);
     }
+
+    /**
+     * Lists n nodes whose numbers somebody else keeps, one particle in each lane of `n_lanes`: register i + j n_registers
+     * holds number j of node i, the weight, offsets and gradients in this order; `numbers` is this particle's first one.
+     */
+    void share(const unsigned int n, double *numbers, const std::size_t n_registers, const std::size_t n_lanes)
+    {
+      if (n_registers > place.size())
+        reserve(n_registers);
+      size       = n;
+      has_images = false;
+      set_columns(numbers, n_registers, n_lanes);
+    }
+
+    /** Memory for share(), which the first stencil of a batch keeps for the others. */
+    double *keep(const std::size_t n)
+    {
+      if (n > kept.size())
+        kept.resize_fast(n);
+      return kept.data();
+    }
+
+    static constexpr unsigned int n_columns = 1 + 2 * dim;
 
     /** The lists in memory, for loops over registers. */
     struct Arrays
@@ -55,13 +83,19 @@ namespace Talus
     {
       reserve(n);
       size = n;
-      return {place.data(), weight, offset, gradient, (n + width - 1) / width * width};
+      Arrays arrays{place.data(), weight.first, {}, {}, (n + width - 1) / width * width};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        arrays.offset[d]   = offset[d].first;
+        arrays.gradient[d] = gradient[d].first;
+      }
+      return arrays;
     }
 
     unsigned int                          size = 0;
     dealii::AlignedVector<unsigned int>   place;
-    double                               *weight = nullptr;
-    std::array<double *, dim>             offset, gradient;
+    Column                                weight;
+    std::array<Column, dim>               offset, gradient; // all columns have one stride
 
     // Where a treatment mirrors nodes in slip walls.
     bool                                 has_images = false;
@@ -74,6 +108,16 @@ namespace Talus
     Stencil &operator=(Stencil &&)      = default;
 
   private:
-    dealii::AlignedVector<double> numbers; // of all arrays
+    void set_columns(double *first, const std::size_t capacity, const std::size_t stride)
+    {
+      weight = {first, stride};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        offset[d]   = {first + (1 + d) * capacity * stride, stride};
+        gradient[d] = {first + (1 + dim + d) * capacity * stride, stride};
+      }
+    }
+
+    dealii::AlignedVector<double> numbers, kept; // of all columns, and of those of a batch
   };
 } // namespace Talus

@@ -128,22 +128,23 @@ namespace Talus
       const Node          constant = add.constant[l];
       Node                moment[dim], force[dim];
       const unsigned int *place  = stencil.place.data();
-      const double       *weight = stencil.weight, *offset[dim], *gradient[dim];
+      const double       *weight = stencil.weight.first, *offset[dim], *gradient[dim];
+      const std::size_t   stride = stencil.weight.stride;
       for (unsigned int d = 0; d < dim; ++d)
       {
         moment[d]   = add.moment(d, l);
         force[d]    = add.force(d, l);
-        offset[d]   = stencil.offset[d];
-        gradient[d] = stencil.gradient[d];
+        offset[d]   = stencil.offset[d].first;
+        gradient[d] = stencil.gradient[d].first;
       }
-      const auto value = [&](const unsigned int k) {
+      const auto value = [&](const std::size_t k) {
         Node at_node = constant;
         if constexpr (Scheme::is_affine)
           for (unsigned int d = 0; d < dim; ++d)
-            at_node += offset[d][k] * moment[d];
-        at_node *= weight[k];
+            at_node += offset[d][k * stride] * moment[d];
+        at_node *= weight[k * stride];
         for (unsigned int d = 0; d < dim; ++d)
-          at_node += gradient[d][k] * force[d];
+          at_node += gradient[d][k * stride] * force[d];
         return at_node;
       };
       double *const first = fields.at_place(0);
@@ -175,7 +176,8 @@ namespace Talus
 
       void gather(const unsigned int l, const Stencil<dim> &stencil, const Fields &fields)
       {
-        Node phi_v = 0., gradient_v[dim], moment_v[dim];
+        Node              phi_v = 0., gradient_v[dim], moment_v[dim];
+        const std::size_t stride = stencil.weight.stride;
         for (unsigned int d = 0; d < dim; ++d)
           gradient_v[d] = moment_v[d] = 0.;
         for (unsigned int k = 0; k < stencil.size; ++k)
@@ -183,12 +185,13 @@ namespace Talus
           Node node = Node::load(fields.at_place(stencil.place[k]));
           if (stencil.has_images && stencil.beyond[k] != 0)
             node *= Node::load(Fields::mirror(stencil.beyond[k]));
-          phi_v += stencil.weight[k] * node;
+          const double phi = stencil.weight.first[k * stride];
+          phi_v += phi * node;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            gradient_v[d] += stencil.gradient[d][k] * node;
+            gradient_v[d] += stencil.gradient[d].first[k * stride] * node;
             if constexpr (Scheme::gathers_B)
-              moment_v[d] += (stencil.weight[k] * stencil.offset[d][k]) * node;
+              moment_v[d] += (phi * stencil.offset[d].first[k * stride]) * node;
           }
         }
         value[l] = phi_v;
