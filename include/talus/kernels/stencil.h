@@ -5,6 +5,7 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <array>
+#include <numeric>
 
 namespace Talus
 {
@@ -20,13 +21,13 @@ namespace Talus
     static constexpr unsigned int width = 8; // there is always room for whole registers
     using Lanes                         = Simd<width>;
 
-    /** One number of each node: every `stride`-th from the first on. */
+    /** One number of each node: that of node k is row[k] after the first. */
     struct Column
     {
-      double     *first  = nullptr;
-      std::size_t stride = 1;
+      double             *first = nullptr;
+      const unsigned int *row   = nullptr;
 
-      double &operator[](const std::size_t k) const { return first[k * stride]; }
+      double &operator[](const std::size_t k) const { return first[row[k]]; }
     };
 
     Stencil() { reserve(16); }
@@ -42,21 +43,22 @@ namespace Talus
         place.resize(capacity);
         beyond.resize(capacity);
         numbers.resize_fast(n_columns * capacity);
+        rows.resize_fast(capacity);
+        std::iota(rows.begin(), rows.end(), 0u);
       }
-      set_columns(numbers.data(), place.size(), 1);
+      set_columns(numbers.data(), place.size(), rows.data());
     }
 
     /**
-     * Lists n nodes whose numbers somebody else keeps, one particle in each lane of `n_lanes`: register i + j n_registers
-     * holds number j of node i, the weight, offsets and gradients in this order; `numbers` is this particle's first one.
+     * Lists n nodes whose numbers somebody else keeps, for instance those of a batch in the lanes of registers: column
+     * j, of the weight, the offsets, the gradients, begins `column` j after `numbers`, and has node k `row[k]` farther
+     * on.
      */
-    void share(const unsigned int n, double *numbers, const std::size_t n_registers, const std::size_t n_lanes)
+    void share(const unsigned int n, double *numbers, const std::size_t column, const unsigned int *row)
     {
-      if (n_registers > place.size())
-        reserve(n_registers);
       size       = n;
       has_images = false;
-      set_columns(numbers, n_registers, n_lanes);
+      set_columns(numbers, column, row);
     }
 
     /** Memory for share(), which the first stencil of a batch keeps for the others. */
@@ -72,10 +74,10 @@ namespace Talus
     /** The lists in memory, for loops over registers. */
     struct Arrays
     {
-      unsigned int           *place;
-      double                 *weight;
+      unsigned int             *place;
+      double                   *weight;
       std::array<double *, dim> offset, gradient;
-      unsigned int            padded_size; // whole registers
+      unsigned int              padded_size; // whole registers
     };
 
     /** Lists n nodes, whatever they are: all arrays have room for whole registers of them. */
@@ -92,15 +94,15 @@ namespace Talus
       return arrays;
     }
 
-    unsigned int                          size = 0;
-    dealii::AlignedVector<unsigned int>   place;
-    Column                                weight;
-    std::array<Column, dim>               offset, gradient; // all columns have one stride
+    unsigned int                        size = 0;
+    dealii::AlignedVector<unsigned int> place;
+    Column                              weight;
+    std::array<Column, dim>             offset, gradient; // all columns have the same rows
 
     // Where a treatment mirrors nodes in slip walls.
     bool                                 has_images = false;
     dealii::AlignedVector<unsigned char> beyond; // faces of the box in which the node stands for its mirror image
-    std::array<bool, dim> is_at_slip_wall{};     // nodes are missing along this axis, beyond a slip wall
+    std::array<bool, dim>                is_at_slip_wall{}; // nodes are missing along this axis, beyond a slip wall
 
     Stencil(const Stencil &)            = delete;
     Stencil &operator=(const Stencil &) = delete;
@@ -108,16 +110,17 @@ namespace Talus
     Stencil &operator=(Stencil &&)      = default;
 
   private:
-    void set_columns(double *first, const std::size_t capacity, const std::size_t stride)
+    void set_columns(double *first, const std::size_t column, const unsigned int *row)
     {
-      weight = {first, stride};
+      weight = {first, row};
       for (unsigned int d = 0; d < dim; ++d)
       {
-        offset[d]   = {first + (1 + d) * capacity * stride, stride};
-        gradient[d] = {first + (1 + dim + d) * capacity * stride, stride};
+        offset[d]   = {first + (1 + d) * column, row};
+        gradient[d] = {first + (1 + dim + d) * column, row};
       }
     }
 
-    dealii::AlignedVector<double> numbers, kept; // of all columns, and of those of a batch
+    dealii::AlignedVector<unsigned int> rows;          // 0, 1, ...
+    dealii::AlignedVector<double>       numbers, kept; // of all columns, and of those of a batch
   };
 } // namespace Talus

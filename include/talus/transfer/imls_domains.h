@@ -8,7 +8,8 @@ namespace Talus
   /**
    * What the domains of a batch of particles add to the sums of Imls for linear functions, one particle in each lane:
    * data at n_points points of each, with the values of an affine field. Moments of the points about a node come first,
-   * a product of factors of one axis each; with v_q = A + H z_q, z_q = x_q - x_i, the right-hand sides follow from them,
+   * a product of factors of one axis each; with v_q = A + H z_q, z_q = x_q - x_i, the right-hand sides follow from
+   * them,
    * @f[ R_0 = A S_0 + \sum_b H_b S_b , \qquad R_a = A S_a + \sum_b H_b S_{ab} . @f]
    * The same sums as Imls::add() of all data, in a third of the time. Domains that lie together, as those of the
    * particles of one cell, share one box of nodes, and are summed before they are stored.
@@ -38,9 +39,9 @@ namespace Talus
           lowest[d]  = min(lowest[d], point[q][d]);
           highest[d] = max(highest[d], point[q][d]);
         }
-        first[d]             = floor(lowest[d]) - 1.;
-        const Number size    = floor(highest[d]) + 3. - first[d];
-        n[d]                 = static_cast<int>(*std::max_element(size.data(), size.data() + native_width));
+        first[d]          = floor(lowest[d]) - 1.;
+        const Number size = floor(highest[d]) + 3. - first[d];
+        n[d]              = static_cast<int>(*std::max_element(size.data(), size.data() + native_width));
         if (n[d] > max_n)
           return false;
       }
@@ -66,8 +67,8 @@ namespace Talus
             f[0]           = select(r < Number(1.), 2. / 3. + r * r * (0.5 * r - 1.), far * far * far * (1. / 6.));
             if (d == 0)
               f[0] *= is_used;
-            f[1]           = f[0] * z;
-            f[2]           = f[1] * z;
+            f[1] = f[0] * z;
+            f[2] = f[1] * z;
           }
       return true;
     }
@@ -231,7 +232,7 @@ namespace Talus
       }
     }
 
-    unsigned int size = 0;
+    unsigned int size           = 0;
     bool         has_common_box = false;
 
     Vector first; // lattice index of the first node

@@ -67,7 +67,8 @@ namespace Talus
           sums.gather(l, stencils[l], grid.fields);
         for (unsigned int l = batch.size(); l < native_width; ++l)
           sums.repeat(batch.size() - 1, l);
-        displacement = max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.inverse_spacing.data()));
+        displacement =
+          max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.inverse_spacing.data()));
       });
       return *std::max_element(displacement.data(), displacement.data() + native_width);
     }
@@ -129,7 +130,7 @@ namespace Talus
       Node                moment[dim], force[dim];
       const unsigned int *place  = stencil.place.data();
       const double       *weight = stencil.weight.first, *offset[dim], *gradient[dim];
-      const std::size_t   stride = stencil.weight.stride;
+      const unsigned int *row    = stencil.weight.row;
       for (unsigned int d = 0; d < dim; ++d)
       {
         moment[d]   = add.moment(d, l);
@@ -137,14 +138,15 @@ namespace Talus
         offset[d]   = stencil.offset[d].first;
         gradient[d] = stencil.gradient[d].first;
       }
-      const auto value = [&](const std::size_t k) {
-        Node at_node = constant;
+      const auto value = [&](const unsigned int k) {
+        const std::size_t i       = row[k];
+        Node              at_node = constant;
         if constexpr (Scheme::is_affine)
           for (unsigned int d = 0; d < dim; ++d)
-            at_node += offset[d][k * stride] * moment[d];
-        at_node *= weight[k * stride];
+            at_node += offset[d][i] * moment[d];
+        at_node *= weight[i];
         for (unsigned int d = 0; d < dim; ++d)
-          at_node += gradient[d][k * stride] * force[d];
+          at_node += gradient[d][i] * force[d];
         return at_node;
       };
       double *const first = fields.at_place(0);
@@ -176,8 +178,7 @@ namespace Talus
 
       void gather(const unsigned int l, const Stencil<dim> &stencil, const Fields &fields)
       {
-        Node              phi_v = 0., gradient_v[dim], moment_v[dim];
-        const std::size_t stride = stencil.weight.stride;
+        Node phi_v = 0., gradient_v[dim], moment_v[dim];
         for (unsigned int d = 0; d < dim; ++d)
           gradient_v[d] = moment_v[d] = 0.;
         for (unsigned int k = 0; k < stencil.size; ++k)
@@ -185,13 +186,14 @@ namespace Talus
           Node node = Node::load(fields.at_place(stencil.place[k]));
           if (stencil.has_images && stencil.beyond[k] != 0)
             node *= Node::load(Fields::mirror(stencil.beyond[k]));
-          const double phi = stencil.weight.first[k * stride];
+          const std::size_t i   = stencil.weight.row[k];
+          const double      phi = stencil.weight.first[i];
           phi_v += phi * node;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            gradient_v[d] += stencil.gradient[d].first[k * stride] * node;
+            gradient_v[d] += stencil.gradient[d].first[i] * node;
             if constexpr (Scheme::gathers_B)
-              moment_v[d] += (phi * stencil.offset[d].first[k * stride]) * node;
+              moment_v[d] += (phi * stencil.offset[d].first[i]) * node;
           }
         }
         value[l] = phi_v;
