@@ -37,13 +37,23 @@ namespace Talus
       void attach(const Grid<dim> &grid) override
       {
         lattice = &box_grid(grid, "/Kernel", "Type").lattice;
-        for (unsigned int i = 0; i < padded; ++i)
+        for (unsigned int form = 0; form < n_forms; ++form)
         {
-          place_in_box[i] = 0;
-          for (unsigned int d = 0, rest = std::min(i, n_box - 1); d < dim; ++d, rest /= usual_extent)
+          Box &box = boxes[form];
+          box      = Box();
+          for (unsigned int i = 0; i < n_box; ++i)
           {
-            offset_in_box[d][i] = rest % usual_extent * lattice->h[d];
-            place_in_box[i] += rest % usual_extent * lattice->stride[d];
+            unsigned int place     = 0;
+            bool         is_listed = true;
+            for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= usual_extent)
+            {
+              place += rest % usual_extent * lattice->stride[d];
+              is_listed = is_listed && rest % usual_extent < 2 + (form >> d & 1);
+            }
+            if (!is_listed)
+              continue;
+            box.place[box.size] = place;
+            box.row[box.size++] = i * native_width;
           }
         }
       }
@@ -72,19 +82,27 @@ namespace Talus
 
       // Nodes per axis of a box that holds those of all corners, as long as a domain is no longer than a spacing.
       static constexpr unsigned int usual_extent = 3;
-      static constexpr unsigned int n_inner = dim == 2 ? usual_extent : usual_extent * usual_extent; // of a layer
-      static constexpr unsigned int n_box   = n_inner * usual_extent;
-      static constexpr unsigned int padded  = (n_box + 7) / 8 * 8;
+      static constexpr unsigned int n_inner      = dim == 2 ? usual_extent : usual_extent * usual_extent; // of a layer
+      static constexpr unsigned int n_box        = n_inner * usual_extent;
+      static constexpr unsigned int n_forms      = 1u << dim; // with 2 or 3 nodes along each axis
+
+      /** The nodes of a box that a domain reaches. */
+      struct Box
+      {
+        unsigned int size         = 0;
+        unsigned int place[n_box] = {}; // after that of the first
+        unsigned int row[n_box]   = {}; // of a batch's numbers
+      };
 
       /** The domains of a batch, one in each lane. */
       struct Domains
       {
-        Number x[dim];                     // lattice coordinates of the particle
-        Number corner[n_corners][dim];     // and of the corners
-        Number gradient[n_corners][dim];   // 2^-d sum_e s_ce r^e
-        Number lowest[dim], extent[dim];   // the box of nodes: first index and number
-        int    largest_extent;             // of any lane and axis
-        int    n_layers;                   // largest extent of any lane along the last axis
+        Number x[dim];                   // lattice coordinates of the particle
+        Number corner[n_corners][dim];   // and of the corners
+        Number gradient[n_corners][dim]; // 2^-d sum_e s_ce r^e
+        Number lowest[dim], extent[dim]; // the box of nodes: first index and number
+        int    largest_extent;           // of any lane and axis
+        int    n_layers;                 // largest extent of any lane along the last axis, 2 at least
       };
 
       void find(const dealii::Tensor<1, dim, Number> &x, const dealii::Tensor<2, dim, Number> &r, Domains &found) const
@@ -97,9 +115,9 @@ namespace Talus
           const auto coordinate = Corners<dim>::coordinates(*lattice, x + Corners<dim>::arm(r, c));
           for (unsigned int d = 0; d < dim; ++d)
           {
-            found.corner[c][d] = coordinate[d];
-            found.lowest[d]    = c == 0 ? coordinate[d] : min(found.lowest[d], coordinate[d]);
-            highest[d]         = c == 0 ? coordinate[d] : max(highest[d], coordinate[d]);
+            found.corner[c][d]   = coordinate[d];
+            found.lowest[d]      = c == 0 ? coordinate[d] : min(found.lowest[d], coordinate[d]);
+            highest[d]           = c == 0 ? coordinate[d] : max(highest[d], coordinate[d]);
             found.gradient[c][d] = 0.;
             for (unsigned int e = 0; e < dim; ++e)
               found.gradient[c][d] += (c >> e & 1 ? 1. / n_corners : -1. / n_corners) * dual[d][e];
@@ -111,27 +129,24 @@ namespace Talus
         found.largest_extent = 0;
         for (unsigned int d = 0; d < dim; ++d)
         {
-          found.x[d]      = (x[d] - lattice->origin[d]) * lattice->inverse_h[d];
-          found.lowest[d] = floor(found.lowest[d]);
-          found.extent[d] = 1. - found.lowest[d] - floor(-highest[d]); // with the ceiling of the highest
-          found.n_layers       = greatest(found.extent[d]);
+          found.x[d]           = (x[d] - lattice->origin[d]) * lattice->inverse_h[d];
+          found.lowest[d]      = floor(found.lowest[d]);
+          found.extent[d]      = 1. - found.lowest[d] - floor(-highest[d]); // with the ceiling of the highest
+          found.n_layers       = std::max(2, greatest(found.extent[d]));
           found.largest_extent = std::max(found.largest_extent, found.n_layers);
         }
       }
 
       /** The hats of some nodes of a line at lattice coordinate t after the first. */
-      static Number hat(const Number &t, const unsigned int k)
-      {
-        return max(1. - abs(t - Number(1. * k)), Number(0.));
-      }
+      static Number hat(const Number &t, const unsigned int k) { return max(1. - abs(t - Number(1. * k)), Number(0.)); }
 
       /**
-       * Lists the nodes of boxes, those of several corners once: sums over corners with a domain in each lane, then
-       * transposed. Nodes of the box that no corner sees have weight 0; those beyond a domain's last layer are left out.
+       * Lists the nodes of boxes, those of several corners once: sums over corners, with a domain in each lane. Nodes
+       * of the box that no corner sees have weight 0; those beyond a domain's own box are left out.
        */
       void list_boxes(const Domains &found, const unsigned int size, Stencil<dim> *stencils) const
       {
-        constexpr unsigned int last = dim - 1;
+        constexpr unsigned int last     = dim - 1;
         const unsigned int     n_layers = found.n_layers, n_listed = n_layers * n_inner;
         Number                 inner[n_corners][n_inner], outer[usual_extent][n_corners][1 + dim];
         for (unsigned int c = 0; c < n_corners; ++c)
@@ -149,42 +164,43 @@ namespace Talus
               outer[k][c][1 + d] = along[last][k] * found.gradient[c][d];
           }
         }
-        Number sums[1 + dim][padded];
-        for (unsigned int i = n_listed; i < (n_listed + 7) / 8 * 8; ++i)
-          for (unsigned int j = 0; j <= dim; ++j)
-            sums[j][i] = 0.;
+        double *numbers = stencils[0].keep(Stencil<dim>::n_columns * n_box * native_width);
         for (unsigned int k = 0; k < n_layers; ++k)
           for (unsigned int i = 0; i < n_inner; i += usual_extent)
-            add_corners(inner, outer[k], i, k * n_inner + i, sums);
+            add_corners(inner, outer[k], i, numbers + (k * n_inner + i) * native_width);
+        set_offsets(found, n_listed, numbers);
 
-        alignas(64) int lowest[dim][native_width], extent[native_width];
+        alignas(64) int lowest[dim][native_width], extent[dim][native_width];
         for (unsigned int d = 0; d < dim; ++d)
+        {
           store_integers(found.lowest[d], lowest[d]);
-        store_integers(found.extent[last], extent);
+          store_integers(found.extent[d], extent[d]);
+        }
         for (unsigned int l = 0; l < size; ++l)
         {
-          stencils[l].reserve(padded);
-          stencils[l].is_at_slip_wall.fill(false);
-          stencils[l].size = extent[l] * n_inner;
           typename Lattice<dim>::Index first;
+          unsigned int                 form = 0;
           for (unsigned int d = 0; d < dim; ++d)
-            first[d] = lowest[d][l];
-          list_places(first, found, l, stencils[l]);
-        }
-        for (unsigned int j = 0; j <= dim; ++j)
-          for (unsigned int i = 0; i < n_listed; i += 8)
           {
-            Simd<8> of_nodes[native_width];
-            lanes_to_vectors<native_width>(reinterpret_cast<const Number(&)[8]>(sums[j][i]), of_nodes);
-            for (unsigned int l = 0; l < size; ++l)
-              of_nodes[l].store((j == 0 ? stencils[l].weight : stencils[l].gradient[j - 1]) + i);
+            first[d] = lowest[d][l];
+            form |= (extent[d][l] > 2 ? 1u : 0u) << d;
           }
+          const Box &box = boxes[form];
+          stencils[l].reserve(n_box);
+          stencils[l].share(box.size, numbers + l, n_box * native_width, box.row);
+          stencils[l].is_at_slip_wall.fill(false);
+          const unsigned int place  = lattice->table_index(first);
+          unsigned int      *places = stencils[l].place.data();
+#pragma GCC ivdep
+          for (unsigned int i = 0; i < n_box; ++i)
+            places[i] = place + box.place[i];
+        }
       }
 
       /** What all corners give to a line of nodes, in registers. */
       [[gnu::always_inline]] static void add_corners(const Number (&inner)[n_corners][n_inner],
                                                      const Number (&outer)[n_corners][1 + dim], const unsigned int i,
-                                                     const unsigned int node, Number (&sums)[1 + dim][padded])
+                                                     double *numbers)
       {
         Number sum[usual_extent][1 + dim];
         for (auto &of_node : sum)
@@ -196,23 +212,19 @@ namespace Talus
               sum[a][j] += inner[c][i + a] * outer[c][j];
         for (unsigned int a = 0; a < usual_extent; ++a)
           for (unsigned int j = 0; j <= dim; ++j)
-            sums[j][node + a] = sum[a][j];
+            sum[a][j].store(numbers + (a + (j == 0 ? 0 : dim + j) * n_box) * native_width);
       }
 
-      /** The places and offsets of a box of usual extent, x running fastest. */
-      void list_places(const typename Lattice<dim>::Index &first, const Domains &found, const unsigned int l,
-                       Stencil<dim> &stencil) const
+      void set_offsets(const Domains &found, const unsigned int n_listed, double *numbers) const
       {
-        const unsigned int place = lattice->table_index(first);
-        unsigned int *places = stencil.place.data();
-#pragma GCC ivdep
-        for (unsigned int i = 0; i < padded; ++i)
-          places[i] = place + place_in_box[i];
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const Simd<8> offset = (first[d] - found.x[d].data()[l]) * lattice->h[d];
-          for (unsigned int i = 0; i < stencil.size; i += 8)
-            (offset + Simd<8>::load(offset_in_box[d] + i)).store(stencil.offset[d] + i);
+          Number along[usual_extent];
+          for (unsigned int k = 0; k < usual_extent; ++k)
+            along[k] = (found.lowest[d] + 1. * k - found.x[d]) * lattice->h[d];
+          double *column = numbers + (1 + d) * n_box * native_width;
+          for (unsigned int i = 0, step = d == 0 ? 1 : d == 1 ? usual_extent : n_inner; i < n_listed; ++i)
+            along[i / step % usual_extent].store(column + i * native_width);
         }
       }
 
@@ -269,8 +281,7 @@ namespace Talus
 
       const Lattice<dim> *lattice    = nullptr;
       unsigned int        half_edges = 0, n_layers = 2;
-      unsigned int        place_in_box[padded];       // of a box's nodes, after the first
-      double              offset_in_box[dim][padded]; // [length]
+      Box                 boxes[n_forms];
     };
 
     const RegisterDimensions<Kernel, Cpdi> registration(

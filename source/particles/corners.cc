@@ -34,6 +34,13 @@ namespace Talus
     }
     for (int i = 0; i < size; ++i)
       is_open[i] = is_open[i] && !is_closed[i];
+    are_open_after = is_open;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const std::vector<char> before = are_open_after;
+      for (int i = 0; i < size; ++i)
+        are_open_after[i] = before[i] && i + lattice.stride[d] < size && before[i + lattice.stride[d]];
+    }
   }
 
   template <int dim>
@@ -45,7 +52,8 @@ namespace Talus
     for_each_batch(begin, end, [&](const auto batch) {
       const auto r = corners.half_edges(batch);
       const auto x = corners.position(batch);
-      auto       is_outside = Number(1.) < Number(0.);
+      auto       is_outside = Number(1.) < Number(0.), is_far = is_outside;
+      Number     place      = 0.; // of the lowest corner, in the tables
       for (unsigned int d = 0; d < dim; ++d)
       {
         // The farthest corner along an axis.
@@ -55,6 +63,10 @@ namespace Talus
         const Number lower = (x[d] - extent - lattice.origin[d]) * lattice.inverse_h[d],
                      upper = (x[d] + extent - lattice.origin[d]) * lattice.inverse_h[d];
         is_outside = is_outside | !(lower >= Number(-tolerance) & upper <= Number(lattice.n_cells[d] + tolerance));
+        const Number shift = reach.shift, first = floor(max(lower, Number(0.)) - shift) - Number(lattice.first[d]),
+                     last = floor(min(upper, Number(lattice.n_cells[d])) - shift) - Number(lattice.first[d]);
+        is_far = is_far | !((first >= Number(0.)) & (last < Number(lattice.extent[d])) & (last - first <= Number(1.)));
+        place += first * Number(lattice.stride[d]);
       }
       if (any(is_outside))
       {
@@ -62,7 +74,7 @@ namespace Talus
           if (is_outside[l])
             outside = std::min(outside, batch.p + l);
       }
-      else if (!are_open(lattice, x, r))
+      else if (any(is_far) || !are_open(place))
         corners.for_each(lattice, reach.shift, batch.p, batch.p + batch.size(),
                          [&](const unsigned int, const auto &index) {
                            if (!lattice.is_in_table(index) || !box->coverage[lattice.table_index(index)])
@@ -74,29 +86,14 @@ namespace Talus
   }
 
   template <int dim>
-  template <class Vector, class Matrix>
-  bool Particles<dim>::are_open(const Lattice<dim> &lattice, const Vector &x, const Matrix &r) const
+  template <class Number>
+  bool Particles<dim>::are_open(const Number &place) const
   {
-    using Number  = Simd<native_width>;
+    alignas(64) int places[Number::n_lanes];
+    store_integers(place, places);
     char are_open = 1;
-    for (unsigned int c = 0; c < Corners<dim>::n; ++c)
-    {
-      const auto coordinate = Corners<dim>::coordinates(lattice, x + Corners<dim>::arm(r, c));
-      Number     place      = 0.; // in the tables, a whole number below 2^31
-      auto       is_beyond  = Number(1.) < Number(0.);
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const Number index = floor(coordinate[d] - Number(reach.shift)) - Number(lattice.first[d]);
-        is_beyond          = is_beyond | (index < Number(0.)) | (index >= Number(lattice.extent[d]));
-        place += index * Number(lattice.stride[d]);
-      }
-      if (any(is_beyond))
-        return false;
-      alignas(64) int places[native_width];
-      store_integers(place, places);
-      for (const int at : places)
-        are_open &= is_open[at];
-    }
+    for (const int at : places)
+      are_open &= are_open_after[at];
     return are_open != 0;
   }
 

@@ -5,6 +5,7 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <array>
+#include <numeric>
 
 namespace Talus
 {
@@ -20,6 +21,15 @@ namespace Talus
     static constexpr unsigned int width = 8; // there is always room for whole registers
     using Lanes                         = Simd<width>;
 
+    /** One number of each node: that of node k is row[k] after the first. */
+    struct Column
+    {
+      double             *first = nullptr;
+      const unsigned int *row   = nullptr;
+
+      double &operator[](const std::size_t k) const { return first[row[k]]; }
+    };
+
     Stencil() { reserve(16); }
 
     /** Makes room for n nodes and forgets what there was. */
@@ -27,27 +37,47 @@ namespace Talus
     {
       size       = 0;
       has_images = false;
-      if (n <= place.size())
-        return;
-      const unsigned int capacity = (n + 7) / 8 * 8;
-      place.resize(capacity);
-      beyond.resize(capacity);
-      numbers.resize_fast((1 + 2 * dim) * capacity);
-      weight = numbers.data();
-      for (unsigned int d = 0; d < dim; ++d)
+      if (n > place.size())
       {
-        offset[d]   = numbers.data() + (1 + d) * capacity;
-        gradient[d] = numbers.data() + (1 + dim + d) * capacity;
+        const unsigned int capacity = (n + 7) / 8 * 8;
+        place.resize(capacity);
+        beyond.resize(capacity);
+        numbers.resize_fast(n_columns * capacity);
+        rows.resize_fast(capacity);
+        std::iota(rows.begin(), rows.end(), 0u);
       }
+      set_columns(numbers.data(), place.size(), rows.data());
     }
+
+    /**
+     * Lists n nodes whose numbers somebody else keeps, for instance those of a batch in the lanes of registers: column
+     * j, of the weight, the offsets, the gradients, begins `column` j after `numbers`, and has node k `row[k]` farther
+     * on.
+     */
+    void share(const unsigned int n, double *numbers, const std::size_t column, const unsigned int *row)
+    {
+      size       = n;
+      has_images = false;
+      set_columns(numbers, column, row);
+    }
+
+    /** Memory for share(), which the first stencil of a batch keeps for the others. */
+    double *keep(const std::size_t n)
+    {
+      if (n > kept.size())
+        kept.resize_fast(n);
+      return kept.data();
+    }
+
+    static constexpr unsigned int n_columns = 1 + 2 * dim;
 
     /** The lists in memory, for loops over registers. */
     struct Arrays
     {
-      unsigned int           *place;
-      double                 *weight;
+      unsigned int             *place;
+      double                   *weight;
       std::array<double *, dim> offset, gradient;
-      unsigned int            padded_size; // whole registers
+      unsigned int              padded_size; // whole registers
     };
 
     /** Lists n nodes, whatever they are: all arrays have room for whole registers of them. */
@@ -55,18 +85,24 @@ namespace Talus
     {
       reserve(n);
       size = n;
-      return {place.data(), weight, offset, gradient, (n + width - 1) / width * width};
+      Arrays arrays{place.data(), weight.first, {}, {}, (n + width - 1) / width * width};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        arrays.offset[d]   = offset[d].first;
+        arrays.gradient[d] = gradient[d].first;
+      }
+      return arrays;
     }
 
-    unsigned int                          size = 0;
-    dealii::AlignedVector<unsigned int>   place;
-    double                               *weight = nullptr;
-    std::array<double *, dim>             offset, gradient;
+    unsigned int                        size = 0;
+    dealii::AlignedVector<unsigned int> place;
+    Column                              weight;
+    std::array<Column, dim>             offset, gradient; // all columns have the same rows
 
     // Where a treatment mirrors nodes in slip walls.
     bool                                 has_images = false;
     dealii::AlignedVector<unsigned char> beyond; // faces of the box in which the node stands for its mirror image
-    std::array<bool, dim> is_at_slip_wall{};     // nodes are missing along this axis, beyond a slip wall
+    std::array<bool, dim>                is_at_slip_wall{}; // nodes are missing along this axis, beyond a slip wall
 
     Stencil(const Stencil &)            = delete;
     Stencil &operator=(const Stencil &) = delete;
@@ -74,6 +110,17 @@ namespace Talus
     Stencil &operator=(Stencil &&)      = default;
 
   private:
-    dealii::AlignedVector<double> numbers; // of all arrays
+    void set_columns(double *first, const std::size_t column, const unsigned int *row)
+    {
+      weight = {first, row};
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        offset[d]   = {first + (1 + d) * column, row};
+        gradient[d] = {first + (1 + dim + d) * column, row};
+      }
+    }
+
+    dealii::AlignedVector<unsigned int> rows;          // 0, 1, ...
+    dealii::AlignedVector<double>       numbers, kept; // of all columns, and of those of a batch
   };
 } // namespace Talus

@@ -88,8 +88,8 @@ namespace Talus
 
     /** What relocate() does for the corners of the particles' domains. */
     void look_at_corners(const unsigned int begin, const unsigned int end);
-    template <class Vector, class Matrix>
-    bool are_open(const Lattice<dim> &lattice, const Vector &x, const Matrix &half_edges) const;
+    template <class Number>
+    bool are_open(const Number &place) const;
 
     /** Throws EntryError for a body with a domain that reaches beyond the grid. */
     void check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &bodies);
@@ -124,6 +124,7 @@ namespace Talus
     Reach             reach;
     Found             found;
     std::vector<char> is_open; // places from which on all nodes within reach are active; where domains have corners
+    std::vector<char> are_open_after; // this place and those one farther along each axis
     unsigned int      half_edges = 0;
   };
 } // namespace Talus

@@ -8,7 +8,8 @@ namespace Talus
   /**
    * What the domains of a batch of particles add to the sums of Imls for linear functions, one particle in each lane:
    * data at n_points points of each, with the values of an affine field. Moments of the points about a node come first,
-   * a product of factors of one axis each; with v_q = A + H z_q, z_q = x_q - x_i, the right-hand sides follow from them,
+   * a product of factors of one axis each; with v_q = A + H z_q, z_q = x_q - x_i, the right-hand sides follow from
+   * them,
    * @f[ R_0 = A S_0 + \sum_b H_b S_b , \qquad R_a = A S_a + \sum_b H_b S_{ab} . @f]
    * The same sums as Imls::add() of all data, in a third of the time. Domains that lie together, as those of the
    * particles of one cell, share one box of nodes, and are summed before they are stored.
@@ -38,9 +39,9 @@ namespace Talus
           lowest[d]  = min(lowest[d], point[q][d]);
           highest[d] = max(highest[d], point[q][d]);
         }
-        first[d]             = floor(lowest[d]) - 1.;
-        const Number size    = floor(highest[d]) + 3. - first[d];
-        n[d]                 = static_cast<int>(*std::max_element(size.data(), size.data() + native_width));
+        first[d]          = floor(lowest[d]) - 1.;
+        const Number size = floor(highest[d]) + 3. - first[d];
+        n[d]              = static_cast<int>(*std::max_element(size.data(), size.data() + native_width));
         if (n[d] > max_n)
           return false;
       }
@@ -66,8 +67,8 @@ namespace Talus
             f[0]           = select(r < Number(1.), 2. / 3. + r * r * (0.5 * r - 1.), far * far * far * (1. / 6.));
             if (d == 0)
               f[0] *= is_used;
-            f[1]           = f[0] * z;
-            f[2]           = f[1] * z;
+            f[1] = f[0] * z;
+            f[2] = f[1] * z;
           }
       return true;
     }
@@ -82,8 +83,12 @@ namespace Talus
           Number across[n_points][n_across];
           for (unsigned int q = 0; q < n_points; ++q)
             multiply(factor[1][b][q], factor[dim - 1][c][q], across[q]);
-          for (int a = 0; a < n[0]; ++a)
-            add_node({{a, b, c}}, across, lattice, sums);
+          // Two nodes at a time keep more sums going than one, which waits for its own.
+          int a = 0;
+          for (; a + 2 <= n[0]; a += 2)
+            add_nodes<2>({{a, b, c}}, across, lattice, sums);
+          if (a < n[0])
+            add_nodes<1>({{a, b, c}}, across, lattice, sums);
         }
     }
 
@@ -131,40 +136,49 @@ namespace Talus
       }
     }
 
-    /** Moments in the order of ImlsBasis: 1; x, y(, z); x^2, xy(, xz), y^2(, yz, z^2). */
-    void moments(const int a, const Number (&across)[n_points][n_across], Number *result) const
+    using Numbers = Number[8 * n_registers]; // of a node: the moments, and the right-hand sides
+
+    /** Moments of nodes a, a + 1, .. in the order of ImlsBasis: 1; x, y(, z); x^2, xy(, xz), y^2(, yz, z^2). */
+    template <int count>
+    void moments(const int a, const Number (&across)[n_points][n_across], Numbers (&result)[count]) const
     {
-      Number S[n_moments]; // in registers
-      for (unsigned int m = 0; m < n_moments; ++m)
-        S[m] = 0.;
+      Number S[count][n_moments]; // in registers
+      for (int i = 0; i < count; ++i)
+        for (unsigned int m = 0; m < n_moments; ++m)
+          S[i][m] = 0.;
       for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const Number *x = factor[0][a][q], *w = across[q];
-        S[0] += x[0] * w[0];
-        S[1] += x[1] * w[0];
-        for (unsigned int d = 1; d < dim; ++d)
-          S[1 + d] += x[0] * w[d];
-        S[1 + dim] += x[2] * w[0];
-        for (unsigned int d = 1; d < dim; ++d)
-          S[1 + dim + d] += x[1] * w[d];
-        for (unsigned int k = dim; k < n_across; ++k)
-          S[1 + dim + k] += x[0] * w[k];
-      }
-      std::copy_n(S, n_moments, result);
+        for (int i = 0; i < count; ++i)
+        {
+          const Number *x = factor[0][a + i][q], *w = across[q];
+          S[i][0] += x[0] * w[0];
+          S[i][1] += x[1] * w[0];
+          for (unsigned int d = 1; d < dim; ++d)
+            S[i][1 + d] += x[0] * w[d];
+          S[i][1 + dim] += x[2] * w[0];
+          for (unsigned int d = 1; d < dim; ++d)
+            S[i][1 + dim + d] += x[1] * w[d];
+          for (unsigned int k = dim; k < n_across; ++k)
+            S[i][1 + dim + k] += x[0] * w[k];
+        }
+      for (int i = 0; i < count; ++i)
+        std::copy_n(S[i], n_moments, result[i]);
     }
 
-    template <class Array>
-    void add_node(const std::array<int, 3> &k, const Number (&across)[n_points][n_across], const Lattice<dim> &lattice,
-                  Array &sums) const
+    template <int count, class Array>
+    void add_nodes(const std::array<int, 3> &k, const Number (&across)[n_points][n_across], const Lattice<dim> &lattice,
+                   Array &sums) const
     {
-      int step = k[0] + k[1] * lattice.stride[1];
-      if constexpr (dim == 3)
-        step += k[2] * lattice.stride[2];
-      // Those beyond the domain do not exist.
-      if (has_common_box && lattice.node[place[0] + step] == Lattice<dim>::missing)
-        return;
-      Number numbers[8 * n_registers];
-      moments(k[0], across, numbers);
+      Numbers numbers[count];
+      moments<count>(k[0], across, numbers);
+      for (int i = 0; i < count; ++i)
+      {
+        set_right_hand_sides({{k[0] + i, k[1], k[2]}}, numbers[i]);
+        store({{k[0] + i, k[1], k[2]}}, numbers[i], lattice, sums);
+      }
+    }
+
+    [[gnu::always_inline]] void set_right_hand_sides(const std::array<int, 3> &k, Numbers &numbers) const
+    {
       Vector A = value;
       for (unsigned int a = 0; a < dim; ++a)
       {
@@ -182,9 +196,20 @@ namespace Talus
         }
       for (unsigned int i = n_moments + dim * (dim + 1); i < 8 * n_registers; ++i)
         numbers[i] = 0.;
+    }
 
+    template <class Array>
+    [[gnu::always_inline]] void store(const std::array<int, 3> &k, const Numbers &numbers, const Lattice<dim> &lattice,
+                                      Array &sums) const
+    {
+      int step = k[0] + k[1] * lattice.stride[1];
+      if constexpr (dim == 3)
+        step += k[2] * lattice.stride[2];
       if (has_common_box)
       {
+        // Those beyond the domain do not exist.
+        if (lattice.node[place[0] + step] == Lattice<dim>::missing)
+          return;
         double *node = sums.at_place(place[0] + step);
         for (unsigned int r = 0; r < n_registers; ++r)
         {
@@ -207,7 +232,7 @@ namespace Talus
       }
     }
 
-    unsigned int size = 0;
+    unsigned int size           = 0;
     bool         has_common_box = false;
 
     Vector first; // lattice index of the first node

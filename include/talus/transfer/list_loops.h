@@ -67,7 +67,8 @@ namespace Talus
           sums.gather(l, stencils[l], grid.fields);
         for (unsigned int l = batch.size(); l < native_width; ++l)
           sums.repeat(batch.size() - 1, l);
-        displacement = max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.inverse_spacing.data()));
+        displacement =
+          max(displacement, advance(scheme, arrays, batch, sums.gathered(), dt, grid.inverse_spacing.data()));
       });
       return *std::max_element(displacement.data(), displacement.data() + native_width);
     }
@@ -128,22 +129,24 @@ namespace Talus
       const Node          constant = add.constant[l];
       Node                moment[dim], force[dim];
       const unsigned int *place  = stencil.place.data();
-      const double       *weight = stencil.weight, *offset[dim], *gradient[dim];
+      const double       *weight = stencil.weight.first, *offset[dim], *gradient[dim];
+      const unsigned int *row    = stencil.weight.row;
       for (unsigned int d = 0; d < dim; ++d)
       {
         moment[d]   = add.moment(d, l);
         force[d]    = add.force(d, l);
-        offset[d]   = stencil.offset[d];
-        gradient[d] = stencil.gradient[d];
+        offset[d]   = stencil.offset[d].first;
+        gradient[d] = stencil.gradient[d].first;
       }
       const auto value = [&](const unsigned int k) {
-        Node at_node = constant;
+        const std::size_t i       = row[k];
+        Node              at_node = constant;
         if constexpr (Scheme::is_affine)
           for (unsigned int d = 0; d < dim; ++d)
-            at_node += offset[d][k] * moment[d];
-        at_node *= weight[k];
+            at_node += offset[d][i] * moment[d];
+        at_node *= weight[i];
         for (unsigned int d = 0; d < dim; ++d)
-          at_node += gradient[d][k] * force[d];
+          at_node += gradient[d][i] * force[d];
         return at_node;
       };
       double *const first = fields.at_place(0);
@@ -183,12 +186,14 @@ namespace Talus
           Node node = Node::load(fields.at_place(stencil.place[k]));
           if (stencil.has_images && stencil.beyond[k] != 0)
             node *= Node::load(Fields::mirror(stencil.beyond[k]));
-          phi_v += stencil.weight[k] * node;
+          const std::size_t i   = stencil.weight.row[k];
+          const double      phi = stencil.weight.first[i];
+          phi_v += phi * node;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            gradient_v[d] += stencil.gradient[d][k] * node;
+            gradient_v[d] += stencil.gradient[d].first[i] * node;
             if constexpr (Scheme::gathers_B)
-              moment_v[d] += (stencil.weight[k] * stencil.offset[d][k]) * node;
+              moment_v[d] += (phi * stencil.offset[d].first[i]) * node;
           }
         }
         value[l] = phi_v;
