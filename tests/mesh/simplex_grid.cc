@@ -216,7 +216,8 @@ void mesh_grid_errors()
   const auto error = [](const std::string &name, const std::vector<std::string> &parts, const std::string &text) {
     check_error<EntryError>(name, parts, [&] { OnMesh<2> run(text); });
   };
-  error("UMLS on a box", {"Kernel", "Type", "needs a mesh of triangles"}, section("Kernel", set("Type", "UMLS")));
+  error("UMLS on a box", {"Kernel", "Type", "needs a mesh of triangles"},
+        section("Grid", set("Spacing", "0.5")) + section("Kernel", set("Type", "UMLS")));
   error("B-splines on a mesh", {"Kernel", "Type", "needs a box grid"}, box_of_simplices<2>());
   const std::string p1 = section("Kernel", set("Type", "P1"));
   error("file and cells", {"File", "not both"},
