@@ -260,7 +260,7 @@ CASES = {
               "Enlarge the grid"], 2, ["case.prm"] + EACH_STEP, output="output"),
         Case("particle leaves the mesh", MESH + [("set Velocity = 1; 0", "set Velocity = 100; 0")],
              [r"Particle \d+ left the grid, at \(2[.\d]*, 0[.\d]*\) in step \d+, t = 0\.00\d+, dt = ",
-              "Enlarge the grid"], 2, ["case.prm"] + EACH_STEP, output="output"),
+              "enlarge the mesh"], 2, ["case.prm"] + EACH_STEP, output="output"),
     ],
     "meshes": [
         wrong_mesh("no such file", "set File = nowhere.msh\n  set Spacing = 0.1", "nowhere.msh"),
