@@ -145,6 +145,7 @@ namespace Talus
     table.add("lost momentum", "mass length/time", lost_momentum);
     model.boundary.add_to(table);
     model.tractions.add_to(table);
+    model.contacts.add_to(table);
     references.add_to(table);
   }
 

@@ -62,6 +62,8 @@ namespace Talus
     for (const auto &load : model.tractions.loads)
       work += load->work;
     traction_work += work;
+    for (const auto &contact : model.contacts.all)
+      contact_work += contact->work;
     damping_energy -= model.boundary.damping.work;
     compare("kinetic energy", report.kinetic_energy, moment, [&] {
       std::vector<double> speeds(model.particles.size());
@@ -89,12 +91,12 @@ namespace Talus
                                  const std::function<std::string()> &culprit) const
   {
     // Not less what damping took: where little is left, the errors of what was put in would count.
-    const double available = initial_energy + body_force_work + condition_work + traction_work;
+    const double available = initial_energy + body_force_work + condition_work + traction_work + contact_work;
     if (energy <= 2 * std::max(available, 0.) + floor)
       return;
     std::ostringstream message;
     message << "The " << name << " " << energy << moment.text() << " is more than twice the " << available
-            << " that initial state, body force, tractions and conditions account for: the run is unstable. "
+            << " that initial state, body force, tractions, contacts and conditions account for: the run is unstable. "
             << culprit() << ". Lower the Courant number, or correct the kernels near the boundary.";
     throw RunError(message.str());
   }
