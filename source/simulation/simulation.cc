@@ -164,6 +164,7 @@ namespace Talus
     fracture.add_to(table);
     model.boundary.add_to(table);
     model.tractions.add_to(table);
+    model.contacts.add_to(table);
     references.add_to(table);
   }
 

@@ -64,6 +64,8 @@ namespace Talus
     for (const auto &load : model.tractions.loads)
       work += load->work;
     traction_work += work;
+    for (const auto &contact : model.contacts.all)
+      contact_work += contact->work;
     damping_energy -= model.boundary.damping.work;
     compare(model, "kinetic energy", report.kinetic_energy, moment, [&] {
       std::vector<double> speeds(model.particles.size());
@@ -91,7 +93,7 @@ namespace Talus
                                  const std::function<std::string()> &culprit)
   {
     // Not less what damping took: where little is left, the errors of what was put in would count.
-    const double available = initial_energy + body_force_work + condition_work + traction_work;
+    const double available = initial_energy + body_force_work + condition_work + traction_work + contact_work;
     most_available         = std::max(most_available, available);
     // Where nearly all was taken out again (a wall has stopped the body), what is left is the error of large sums, and
     // no bound.
@@ -101,7 +103,7 @@ namespace Talus
       return;
     std::ostringstream message;
     message << "The " << name << " " << energy << moment.text() << " is more than twice the " << bound
-            << " that initial state, body force, tractions and conditions account for: the run is unstable. "
+            << " that initial state, body force, tractions, contacts and conditions account for: the run is unstable. "
             << culprit() << ". " << remedy_of_instability(model);
     throw RunError(message.str());
   }

@@ -1,6 +1,6 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/registry.h>
-#include <talus/particles/batch_access.h>
+#include <talus/steppers/deformation.h>
 #include <talus/steppers/explicit_step.h>
 #include <talus/steppers/sweep.h>
 
@@ -48,6 +48,7 @@ namespace Talus
     upkeep_section   = timing.add("upkeep");
     smoothing        = timing.add("smoothing of J");
     musl_section     = timing.add("velocities once more");
+    f_bar            = timing.add("F-bar");
 
     raise_mass_floor(model);
     if (courant_number == 0)
@@ -83,8 +84,10 @@ namespace Talus
     double nu = 0;
     for (const auto &material : model.materials)
       nu = std::max(nu, material->kinematic_viscosity());
-    const double h = model.grid.smallest_spacing;
-    return courant_number / (last.signal_speed / h + 2 * dim * nu / (h * h));
+    const double h       = model.grid.smallest_spacing;
+    const double dt      = courant_number / (last.signal_speed / h + 2 * dim * nu / (h * h)),
+                 inverse = model.contacts.inverse_step();
+    return inverse * dt > 1 ? 1 / inverse : dt;
   }
 
   template <int dim>
@@ -127,6 +130,7 @@ namespace Talus
       model.walls.clear();
       model.transfer->particle_to_grid(model.particles, *model.kernel, model.acceleration, time, model.grid);
       model.tractions.apply(model.particles, *model.kernel, time, model.grid);
+      model.contacts.apply(model.particles, *model.kernel, dt, model.grid);
     }
     const Timing::Scope scope(*timing, grid);
     model.move_nodes(time, dt);
@@ -157,7 +161,17 @@ namespace Talus
       musl.apply(model, time, dt);
     }
     sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
-      update_stress(particles, model.materials, ranges, begin, end);
+      deform(particles, model.materials, ranges, begin, end);
+    });
+    if (model.f_bar.is_on)
+    {
+      sweep.run(particles.size(), block);
+      const Timing::Scope scope(*timing, f_bar);
+      model.f_bar.apply(model.materials, *model.kernel, dt, particles, model.grid);
+    }
+    sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
+      for (unsigned int m = 0; m < ranges.size(); ++m)
+        model.materials[m]->update(intersection(ranges[m], begin, end)); // Eqs. (28)-(30)
     });
     sweep.add(relocate, [&](const unsigned int begin, const unsigned int end) {
       particles.relocate(begin, end);
@@ -167,7 +181,10 @@ namespace Talus
 
     const Timing::Scope scope(*timing, relocate);
     model.tractions.finish(particles);
-    return watch->finish(displacement);
+    model.contacts.finish(particles);
+    const Report report = watch->finish(displacement);
+    model.contacts.check(model.grid.communicator);
+    return report;
   }
 
   template <int dim>
@@ -177,81 +194,8 @@ namespace Talus
            " sorts\n";
   }
 
-  namespace
-  {
-    template <int dim, class Batch>
-    Tensor<2, dim, typename Batch::Number> relative_deformation(const Batch                           &batch,
-                                                                const std::array<double *, dim * dim> &grad_v,
-                                                                const double                           dt)
-    {
-      auto f = dt * load_matrix<dim>(batch, grad_v);
-      for (unsigned int d = 0; d < dim; ++d)
-        f[d][d] += 1.;
-      return f;
-    }
-
-    /** Eq. (27), and the volume by the same factor. */
-    template <int dim>
-    void deform(Particles<dim> &particles, const MaterialRange &range)
-    {
-      const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
-      const auto F      = particles.template components<dim * dim>(particles.F);
-      const auto volume = particles.component(particles.volume, 0);
-      for_each_batch(range.begin, range.end, [&](const auto batch) {
-        const auto f = relative_deformation<dim>(batch, grad_v, range.dt);
-        store_matrix(batch, F, f * load_matrix<dim>(batch, F));
-        batch.store(volume, batch.load(volume) * determinant(f));
-      });
-    }
-
-    /** The volume alone, and F = diag(J, 1, 1). */
-    template <int dim>
-    void dilate(Particles<dim> &particles, const MaterialRange &range, const double reference_density)
-    {
-      const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
-      const auto J      = particles.component(particles.F, 0);
-      const auto mass   = particles.component(particles.mass, 0);
-      const auto volume = particles.component(particles.volume, 0);
-      for_each_batch(range.begin, range.end, [&](const auto batch) {
-        const auto V = batch.load(volume) * determinant(relative_deformation<dim>(batch, grad_v, range.dt));
-        batch.store(volume, V);
-        batch.store(J, reference_density * V / batch.load(mass));
-      });
-    }
-  } // namespace
-
-  template <int dim>
-  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
-                     const std::vector<MaterialRange> &ranges, const unsigned int begin, const unsigned int end)
-  {
-    for (unsigned int m = 0; m < materials.size(); ++m)
-    {
-      const MaterialRange range = intersection(ranges[m], begin, end);
-      if (range.begin == range.end)
-        continue;
-      if (materials[m]->carries_volume_only())
-        dilate(particles, range, materials[m]->density);
-      else
-        deform(particles, range);
-      materials[m]->update(range);
-    }
-  }
-
-  template <int dim>
-  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
-                     const double dt)
-  {
-    update_stress(particles, materials, material_ranges(particles, dt), 0, particles.size());
-  }
-
-#define INSTANTIATE(dim)                                                                                               \
-  template class Explicit<dim>;                                                                                        \
-  template void update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &,                        \
-                              const std::vector<MaterialRange> &, const unsigned int, const unsigned int);             \
-  template void update_stress(Particles<dim> &, const std::vector<std::unique_ptr<Material>> &, const double);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template class Explicit<2>;
+  template class Explicit<3>;
 
   namespace
   {

@@ -31,7 +31,7 @@ namespace Talus
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
-    smoothing(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
+    smoothing(parameters), f_bar(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->choose(parameters);
     build_bodies(parameters);
@@ -47,6 +47,8 @@ namespace Talus
     add_parameter("Local damping", boundary.damping.factor,
                   "Share alpha of each nodal force that opposes the motion, for quasi-static work [1]; 0: none.", prm,
                   Patterns::Double());
+    add_parameter("F-bar", f_bar.is_on,
+                  "Materials see volumes that are averaged over the grid, against volumetric locking.");
   }
 
   template <int dim>
@@ -80,6 +82,7 @@ namespace Talus
     tractions.names = parameters.names("/Tractions", "Names of the tractions; each has a subsection of its name.");
     for (const auto &name : tractions.names)
       tractions.loads.push_back(std::make_unique<Traction<dim>>(parameters, name, body_names));
+    contacts.build(parameters);
   }
 
   template <int dim>
@@ -89,6 +92,10 @@ namespace Talus
     if (!(boundary.damping.factor >= 0 && boundary.damping.factor < 1))
       throw EntryError(get_section_name(), "Local damping",
                        "it must lie between 0 and 1, 1 excluded; 0.7 comes to rest soon.");
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      if (f_bar.is_on && materials[m]->smoothing_speed() > 0)
+        throw EntryError(get_section_name(), "F-bar",
+                         "it averages volumes, and 'J smoothing' of '" + material_names[m] + "' too. Choose one of them.");
   }
 
   template <int dim>
@@ -110,6 +117,7 @@ namespace Talus
       walls.attach(box_grid(grid, "/Kernel", "Boundary treatment"));
     particles.set_reach(grid, reach);
     smoothing.add_fields(materials, particles);
+    f_bar.add_fields(particles);
     if (!bodies.empty())
     {
       particles.create(grid, bodies, materials);
@@ -121,8 +129,10 @@ namespace Talus
     initialize();
     transfer->initialize(*kernel, particles);
     smoothing.initialize(materials, *kernel, particles, grid);
+    f_bar.initialize(particles, grid);
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);
+    contacts.attach(grid, materials, particles);
   }
 
   template <int dim>
@@ -184,6 +194,7 @@ namespace Talus
     reduction.sum(grid.lost_momentum);
     boundary.add_to(reduction);
     tractions.add_to(reduction);
+    contacts.add_to(reduction);
   }
 
   template <int dim>

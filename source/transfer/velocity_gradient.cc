@@ -21,8 +21,9 @@ namespace Talus
                                 WorkingSet<dim> &particles)
   {
     // Without a step size the particles stay where they are.
-    Loops<dim, GradientOnly<dim>>::grid_to_particle({}, TransferArrays<dim>(particles), particles, kernel, is_plain,
-                                                    grid, /* dt = */ 0., 0, particles.size());
+    Loops<dim, GradientOnly<dim>>::grid_to_particle({}, TransferArrays<dim>(particles), particles, kernel,
+                                                    is_plain ? std::nullopt : kernel.lattice_form(), grid, grid.fields,
+                                                    /* dt = */ 0., 0, particles.size());
   }
 
 #define INSTANTIATE(dim)                                                                                               \

@@ -18,6 +18,8 @@ void musl_definition();
 template <int dim>
 void musl_momentum();
 template <int dim>
+void locking();
+template <int dim>
 void musl_energy();
 
 int main(int argc, char **argv)
@@ -41,5 +43,7 @@ int main(int argc, char **argv)
                     {"MUSL: momentum, 2D", musl_momentum<2>},
                     {"MUSL: momentum, 3D", musl_momentum<3>},
                     {"MUSL: energy, 2D", musl_energy<2>},
-                    {"MUSL: energy, 3D", musl_energy<3>}});
+                    {"MUSL: energy, 3D", musl_energy<3>},
+                    {"locking, 2D", locking<2>},
+                    {"locking, 3D", locking<3>}});
 }

@@ -29,6 +29,8 @@ DECLARE(imls_on_a_lattice)
 DECLARE(imls_domains)
 DECLARE(cpls_affine)
 DECLARE(cpls_momentum)
+DECLARE(averaging)
+DECLARE(f_bar)
 void imls_at_a_node();
 
 int main(int argc, char **argv)
@@ -79,6 +81,10 @@ int main(int argc, char **argv)
                     {"mirror: reaction 3D", mirror_reaction<3>},
                     {"smoothing of J 2D", smoothing<2>},
                     {"smoothing of J 3D", smoothing<3>},
+                    {"averaging 2D", averaging<2>},
+                    {"averaging 3D", averaging<3>},
+                    {"F-bar 2D", f_bar<2>},
+                    {"F-bar 3D", f_bar<3>},
                     {"stretched fluid 2D", stretched_fluid<2>},
                     {"stretched fluid 3D", stretched_fluid<3>},
                     {"traction sums 2D", traction_sums<2>},

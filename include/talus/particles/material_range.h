@@ -7,6 +7,20 @@
 
 namespace Talus
 {
+  /** Fields of what materials see of the deformation where that is not the particles' own: see FBar. */
+  struct SeenFields
+  {
+    unsigned int F, grad_v, volume;
+  };
+
+  /** Adds them. Before the first particle exists. */
+  template <int dim>
+  SeenFields add_seen_fields(WorkingSet<dim> &particles);
+
+  /** Those that have been added, else the particles' own. */
+  template <int dim>
+  SeenFields seen_fields(const WorkingSet<dim> &particles);
+
   /** What material `m` sees of its particles. The arrays are valid until particles are sorted or migrate. */
   template <int dim>
   MaterialRange material_range(WorkingSet<dim> &particles, const unsigned int m, const double dt);

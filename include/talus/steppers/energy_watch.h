@@ -35,7 +35,7 @@ namespace Talus
     double residual(const double kinetic_energy, const double strain_energy) const
     {
       return kinetic_energy + strain_energy + damping_energy -
-             (initial_energy + body_force_work + condition_work + traction_work);
+             (initial_energy + body_force_work + condition_work + traction_work + contact_work);
     }
 
     /** What was put in and taken out. */
@@ -44,6 +44,7 @@ namespace Talus
       table.add("body force work", "energy", body_force_work);
       table.add("condition work", "energy", condition_work);
       table.add("traction work", "energy", traction_work);
+      table.add("contact work", "energy", contact_work);
       table.add("damping energy", "energy", damping_energy);
     }
 
@@ -55,6 +56,7 @@ namespace Talus
     double body_force_work = 0; // [energy]
     double condition_work  = 0; // [energy]
     double traction_work   = 0; // [energy]
+    double contact_work    = 0; // [energy]
     double damping_energy  = 0; // taken by local damping [energy]
     double initial_energy = 0, most_available = 0, floor = 0;
   };

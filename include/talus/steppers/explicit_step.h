@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/steppers/deformation.h>
 #include <talus/steppers/musl.h>
 #include <talus/steppers/stepper.h>
 #include <talus/steppers/upkeep.h>
@@ -40,21 +41,11 @@ namespace Talus
     bool   is_musl = false;
 
     Timing      *timing = nullptr;
-    unsigned int particle_to_grid, grid, grid_to_particle, stress, relocate, upkeep_section, smoothing,
-      musl_section; // of `timing`
+    unsigned int particle_to_grid, grid, grid_to_particle, stress, relocate, upkeep_section, smoothing, musl_section,
+      f_bar; // of `timing`
 
     Upkeep<dim>               upkeep;
     Musl<dim>                 musl;
     std::optional<Watch<dim>> watch;
   };
-
-  /** Eqs. (27)-(30) of particles begin .. end - 1: deformation gradient, volume, stress and state from grad v. */
-  template <int dim>
-  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
-                     const std::vector<MaterialRange> &ranges, const unsigned int begin, const unsigned int end);
-
-  /** The same for all particles. */
-  template <int dim>
-  void update_stress(Particles<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
-                     const double dt);
 } // namespace Talus

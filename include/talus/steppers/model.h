@@ -3,9 +3,11 @@
 #include <talus/boundary/condition.h>
 #include <talus/core/body_force.h>
 #include <talus/core/parameters.h>
+#include <talus/loads/contact.h>
 #include <talus/particles/material_range.h>
 #include <talus/particles/overlaps.h>
 #include <talus/particles/particles.h>
+#include <talus/transfer/f_bar.h>
 #include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
 #include <talus/transfer/volume_smoothing.h>
@@ -62,7 +64,9 @@ namespace Talus
     Particles<dim>                          particles;
     Boundary<dim>                           boundary;
     Tractions<dim>                          tractions;
+    Contacts<dim>                           contacts;
     VolumeSmoothing<dim>                    smoothing;
+    FBar<dim>                               f_bar;
     BodyForce<dim>                          acceleration; // body force per mass
 
   private:

@@ -40,16 +40,17 @@ namespace Talus
     void particle_to_grid(const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
                           const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid) override
     {
-      Loops<dim, Scheme<dim>>::particle_to_grid(scheme, arrays(const_cast<WorkingSet<dim> &>(particles)), // read only
-                                                particles, kernel, this->is_plain, acceleration, time, grid);
+      const auto here = arrays(const_cast<WorkingSet<dim> &>(particles)); // read only
+      Loops<dim, Scheme<dim>>::particle_to_grid(scheme, here, particles, kernel, form(kernel), acceleration, time, 0,
+                                                particles.size(), grid, grid.fields);
     }
 
     using Transfer<dim>::grid_to_particle;
     double grid_to_particle(const Grid<dim> &grid, const Kernel<dim> &kernel, const double dt,
                             WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end) const override
     {
-      return Loops<dim, Scheme<dim>>::grid_to_particle(scheme, arrays(particles), particles, kernel, this->is_plain,
-                                                       grid, dt, begin, end);
+      return Loops<dim, Scheme<dim>>::grid_to_particle(scheme, arrays(particles), particles, kernel, form(kernel), grid,
+                                                       grid.fields, dt, begin, end);
     }
 
     dealii::Tensor<2, dim> affine_moment(const WorkingSet<dim> &particles, const unsigned int p) const override
@@ -59,6 +60,12 @@ namespace Talus
 
   private:
     using Lists = ListLoops<dim, Scheme<dim>>;
+
+    /** None for those that are to run through lists. */
+    std::optional<LatticeForm<dim>> form(const Kernel<dim> &kernel) const
+    {
+      return this->is_plain ? std::nullopt : kernel.lattice_form();
+    }
 
     TransferArrays<dim> arrays(WorkingSet<dim> &particles) const
     {

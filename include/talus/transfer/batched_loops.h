@@ -20,16 +20,15 @@ namespace Talus
   {
   public:
     static void particle_to_grid(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                 const unsigned int n_particles, const LatticeForm<dim> &kernel,
-                                 const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid)
+                                 const LatticeForm<dim> &kernel, const BodyForce<dim> &acceleration, const double time,
+                                 const unsigned int begin, const unsigned int end, NodalFields<dim> &fields)
     {
       const Lattice<dim>  &lattice   = kernel.lattice;
-      Fields              &fields    = grid.fields;
       const auto           uniform_b = acceleration.uniform_value(time);
       const auto          &place = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
       const Evaluator      evaluator(function, lattice, kernel.treatment);
       LatticeBatch<dim, n> stencil;
-      for_each_batch(0, n_particles, [&](const auto batch) {
+      for_each_batch(begin, end, [&](const auto batch) {
         const auto x = load_vector<dim>(batch, arrays.position);
         evaluator.locate(x, stencil);
         evaluator.evaluate(stencil);
@@ -45,11 +44,10 @@ namespace Talus
     }
 
     static double grid_to_particle(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                   const LatticeForm<dim> &kernel, const Grid<dim> &grid, const double dt,
+                                   const LatticeForm<dim> &kernel, const NodalFields<dim> &fields, const double dt,
                                    const unsigned int begin, const unsigned int end)
     {
       const Lattice<dim>  &lattice      = kernel.lattice;
-      const Fields        &fields       = grid.fields;
       Number               displacement = 0.;
       const Evaluator      evaluator(function, lattice, kernel.treatment);
       LatticeBatch<dim, n> stencil;

@@ -25,13 +25,14 @@ namespace Talus
     /** Eqs. (11)-(19). */
     static void particle_to_grid(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                  const WorkingSet<dim> &particles, const Kernel<dim> &kernel,
-                                 const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid)
+                                 const BodyForce<dim> &acceleration, const double time, const unsigned int begin,
+                                 const unsigned int end, const Grid<dim> &grid, NodalFields<dim> &fields)
     {
       const auto   uniform_b = acceleration.uniform_value(time);
       const auto  &place     = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
       const double h         = grid.largest_spacing;
       Contribution<dim, Scheme> add;
-      for_each_list(particles, kernel, 0, particles.size(), [&](const auto batch, const Stencil<dim> *stencils) {
+      for_each_list(particles, kernel, begin, end, [&](const auto batch, const Stencil<dim> *stencils) {
         Vector b;
         for (unsigned int d = 0; d < dim; ++d)
           b[d] = uniform_b[d];
@@ -51,20 +52,21 @@ namespace Talus
         }
         add.set(arrays, batch, C, b);
         for (unsigned int l = 0; l < batch.size(); ++l)
-          scatter(add, l, stencils[l], grid.fields);
+          scatter(add, l, stencils[l], fields);
       });
     }
 
     /** Eqs. (22)-(26), (31); returns the largest displacement along an axis [spacing]. */
     static double grid_to_particle(const Scheme &scheme, const TransferArrays<dim> &arrays,
                                    const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const Grid<dim> &grid,
-                                   const double dt, const unsigned int begin, const unsigned int end)
+                                   const NodalFields<dim> &fields, const double dt, const unsigned int begin,
+                                   const unsigned int end)
     {
       Number displacement = 0.;
       Sums   sums;
       for_each_list(particles, kernel, begin, end, [&](const auto batch, const Stencil<dim> *stencils) {
         for (unsigned int l = 0; l < batch.size(); ++l)
-          sums.gather(l, stencils[l], grid.fields);
+          sums.gather(l, stencils[l], fields);
         for (unsigned int l = batch.size(); l < native_width; ++l)
           sums.repeat(batch.size() - 1, l);
         displacement =

@@ -6,43 +6,46 @@
 namespace Talus
 {
   /**
-   * Both passes of a scheme with any kernel. Kernels that are products over the axes run through the compiled loops,
-   * all others, and those that are asked for as `is_plain`, through lists.
+   * Both passes of a scheme with any kernel: through the compiled loops where it has a lattice form, else through lists.
+   * The nodes' numbers are in `fields`, those of the grid or others of its nodes.
    */
   template <int dim, class Scheme>
   struct Loops
   {
-    /** Eqs. (11)-(19). */
+    using Form = std::optional<LatticeForm<dim>>;
+
+    /** Eqs. (11)-(19): what the particles begin .. end - 1 add to the nodes. */
     static void particle_to_grid(const Scheme &scheme, const TransferArrays<dim> &arrays,
-                                 const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const bool is_plain,
-                                 const BodyForce<dim> &acceleration, const double time, Grid<dim> &grid)
+                                 const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const Form &form,
+                                 const BodyForce<dim> &acceleration, const double time, const unsigned int begin,
+                                 const unsigned int end, const Grid<dim> &grid, NodalFields<dim> &fields)
     {
-      const auto form = kernel.lattice_form();
-      if (form && !is_plain)
+      if (form)
         std::visit(
           [&](const auto &function) {
-            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, particles.size(), *form,
-                                                          acceleration, time, grid);
+            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, *form, acceleration, time, begin,
+                                                          end, fields);
           },
           form->function);
       else
-        ListLoops<dim, Scheme>::particle_to_grid(scheme, arrays, particles, kernel, acceleration, time, grid);
+        ListLoops<dim, Scheme>::particle_to_grid(scheme, arrays, particles, kernel, acceleration, time, begin, end,
+                                                 grid, fields);
     }
 
-    /** Eqs. (22)-(26), (31) of particles begin .. end - 1; returns the largest displacement along an axis [spacing]. */
+    /** Eqs. (22)-(26), (31) of these particles; returns the largest displacement along an axis [spacing]. */
     static double grid_to_particle(const Scheme &scheme, const TransferArrays<dim> &arrays,
-                                   const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const bool is_plain,
-                                   const Grid<dim> &grid, const double dt, const unsigned int begin,
-                                   const unsigned int end)
+                                   const WorkingSet<dim> &particles, const Kernel<dim> &kernel, const Form &form,
+                                   const Grid<dim> &grid, const NodalFields<dim> &fields, const double dt,
+                                   const unsigned int begin, const unsigned int end)
     {
-      const auto form = kernel.lattice_form();
-      if (form && !is_plain)
+      if (form)
         return std::visit(
           [&](const auto &function) {
-            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *form, grid, dt, begin, end);
+            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *form, fields, dt, begin,
+                                                                 end);
           },
           form->function);
-      return ListLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, kernel, grid, dt, begin, end);
+      return ListLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, kernel, grid, fields, dt, begin, end);
     }
 
   private:

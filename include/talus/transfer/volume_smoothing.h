@@ -1,8 +1,7 @@
 #pragma once
 
-#include <talus/kernels/kernel.h>
 #include <talus/particles/material_range.h>
-#include <talus/particles/particles.h>
+#include <talus/transfer/averaging.h>
 
 namespace Talus
 {
@@ -15,14 +14,13 @@ namespace Talus
    * with the speed s that the material asks for; without one there is neither pass nor field. The kernels are corrected
    * by separable least squares at all faces of the domain, whatever the run's treatment: fields that reproduce linear
    * functions keep sum m J, which is the volume, and a linear J. Where the pressure comes from J alone it is what lets
-   * rows of particles drift apart in J that nothing brings back: doc/quiet_floor.md. The nodes' sums have an array of
-   * their own; the grid's fields stay those of the last step. Test: tests/transfer/smoothing.cc.
+   * rows of particles drift apart in J that nothing brings back: doc/quiet_floor.md. Test: tests/transfer/smoothing.cc.
    */
   template <int dim>
   class VolumeSmoothing
   {
   public:
-    explicit VolumeSmoothing(Parameters &parameters);
+    explicit VolumeSmoothing(Parameters &parameters) : averaging(parameters, "WLS separable") {}
 
     /** Adds g to the particles if a material smooths. Before the first particle exists. */
     void add_fields(const std::vector<std::unique_ptr<Material>> &materials, WorkingSet<dim> &particles);
@@ -39,8 +37,8 @@ namespace Talus
     void smooth(const Material &material, const MaterialRange &range, const Kernel<dim> &kernel, const double alpha,
                 Particles<dim> &particles, const Grid<dim> &grid);
 
-    std::unique_ptr<Treatment<dim>> treatment;
-    NodalArray<2>                   fields;       // mass and mean J; empty where no material smooths
-    unsigned int                    gradient = 0; // g [1/length]
+    Averaging<dim>      averaging;
+    std::vector<double> J;            // of each particle
+    unsigned int        gradient = 0; // g [1/length]
   };
 } // namespace Talus

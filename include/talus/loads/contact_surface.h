@@ -1,0 +1,39 @@
+#pragma once
+
+#include <talus/core/parameters.h>
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace Talus
+{
+  /** A particle near a surface. */
+  template <int dim>
+  struct Near
+  {
+    unsigned int           p;
+    double                 distance; // [length]
+    dealii::Tensor<1, dim> normal;   // from the nearest point of the surface to the particle
+  };
+
+  /** A closed surface that material must not run through; it may be on either side. */
+  template <int dim>
+  class ContactSurface : public dealii::ParameterAcceptor
+  {
+  public:
+    using Point = dealii::Point<dim>;
+
+    using dealii::ParameterAcceptor::ParameterAcceptor;
+
+    /** Prepares to find points up to `reach` away [length]. Throws EntryError for an impossible surface. */
+    virtual void create(const double reach) = 0;
+
+    /** Appends those of the points begin .. end - 1 that are nearer to the surface than the reach. */
+    virtual void find(const std::array<const double *, dim> &x, const unsigned int begin, const unsigned int end,
+                      std::vector<Near<dim>> &near) const = 0;
+
+    /** Whether a point lies inside. */
+    virtual bool contains(const Point &x) const = 0;
+  };
+} // namespace Talus
