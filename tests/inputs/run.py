@@ -297,7 +297,7 @@ def case_checks(runs):
 def case_switched_off(runs):
     """Entries of what is switched off may stand in the file, misspelt ones may not."""
     shear = os.path.join(os.path.dirname(os.path.dirname(HERE)), "prm", "shear.prm")
-    short = ["FEM reference/Compare = no", "Run/Number of steps = 2"]
+    short = ["FEM reference/Compare = no", "Run/Number of steps = 2", "Run/Courant number = 0.5"]
     warned(runs, "off", shear, short)
     refused(runs, "misspelt", shear, short + ["FEM reference/Averag from = 0.5"], "unknown entry 'Averag from'", "Did you mean 'Average from'")
     refused(runs, "misspelt below", shear, short + ["FEM reference/Conditions/top/Displacment = 0; 0"], "unknown entry 'Displacment'")
