@@ -77,7 +77,7 @@ void contact_bounce()
   // A soft barrier, which the ball does not reach yet, so that it is stopped slowly and does not ring.
   Run<dim>     run(contact_text<dim>(ball_text<dim>(dim == 2 ? "0.1; -0.5" : "0.1; -0.5; 0.05", 0.6),
                                  floor_text<dim>() + set("Pressure", "10") + set("Distance", "0.1") +
-                                   set("Step fraction", "0.05")));
+                                   set("Step fraction", "0.02")));
   auto        &contact = *run.model.contacts.all[0];
   const double start   = run.report.kinetic_energy;
   double       work = 0, impulse_error = 0, nearest = 0, most_taken = 0, tangential = 0, strongest = 0;
