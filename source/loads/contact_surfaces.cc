@@ -1,3 +1,4 @@
+#include <talus/core/coordinates.h>
 #include <talus/core/exceptions.h>
 #include <talus/core/registry.h>
 #include <talus/grid/closed_surface.h>
@@ -12,17 +13,6 @@ namespace Talus
 
   namespace
   {
-    template <int dim>
-    Point<dim> to_point(const std::vector<double> &list)
-    {
-      Point<dim> x;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = list[d];
-      return x;
-    }
-
-    const Patterns::List coordinates(const int dim) { return Patterns::List(Patterns::Double(), dim, dim); }
-
     /** A surface in flat parts; derived classes say which. */
     template <int dim>
     class Facets : public ContactSurface<dim>

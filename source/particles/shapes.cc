@@ -1,3 +1,4 @@
+#include <talus/core/coordinates.h>
 #include <talus/particles/lattice_shape.h>
 
 #include <limits>
@@ -8,17 +9,6 @@ namespace Talus
 
   namespace
   {
-    template <int dim>
-    Point<dim> to_point(const std::vector<double> &list)
-    {
-      Point<dim> x;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = list[d];
-      return x;
-    }
-
-    const Patterns::List coordinates(const int dim) { return Patterns::List(Patterns::Double(), dim, dim); }
-
     /** The box between two corners; "Lower corner", "Upper corner". */
     template <int dim>
     class Box : public LatticeShape<dim>

@@ -8,20 +8,11 @@
 namespace Talus
 {
   using namespace dealii;
+  using internal::axes;
+  using internal::sentence;
 
   namespace
   {
-    template <class... Parts>
-    std::string text(const Parts &...parts)
-    {
-      std::ostringstream out;
-      out << std::setprecision(4);
-      (out << ... << parts);
-      return out.str();
-    }
-
-    const char *const axes = "xyz";
-
     std::array<double, 6> stress_at(const MaterialRange &range, const unsigned int p)
     {
       std::array<double, 6> stress{};
@@ -88,11 +79,11 @@ namespace Talus
   template <int dim>
   void Checks<dim>::find_extents()
   {
-    const auto                &particles = model.particles;
-    constexpr double           infinity  = std::numeric_limits<double>::infinity();
-    const unsigned int         n_bodies  = model.bodies.size();
+    const auto                                    &particles = model.particles;
+    constexpr double                               infinity  = std::numeric_limits<double>::infinity();
+    const unsigned int                             n_bodies  = model.bodies.size();
     std::unordered_map<std::size_t, unsigned char> in_cell;
-    const auto                 cell_of = [&](const unsigned int p) {
+    const auto                                     cell_of = [&](const unsigned int p) {
       return model.grid.cell_number(Point<dim>(particles.vector(particles.position, p)));
     };
     for (unsigned int p = 0; p < particles.size(); ++p)
@@ -110,7 +101,7 @@ namespace Talus
       counts[2 * b + 1] += in_cell[cell_of(p)] == 1;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double x = particles.component(particles.position, d)[p];
+        const double x   = particles.component(particles.position, d)[p];
         double      &low = corners[2 * (dim * b + d)], &high = corners[2 * (dim * b + d) + 1];
         low  = std::min(low, x - half);
         high = std::min(high, -x - half);
@@ -140,9 +131,9 @@ namespace Talus
       const Body<dim> &body   = *model.bodies[b];
       if (extent.n < 2)
         continue; // a tracer
-      unsigned int thin     = 0;
-      double       n_cells  = 3 - 1e-6;
-      bool         is_thin  = false;
+      unsigned int thin    = 0;
+      double       n_cells = 3 - 1e-6;
+      bool         is_thin = false;
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double across = (extent.upper[d] - extent.lower[d]) * model.grid.inverse_spacing[d];
@@ -158,15 +149,18 @@ namespace Talus
       }
       if (is_thin)
         warn(body.get_section_name(), body.shape->position_entry(),
-             text("the body is ", n_cells, " cells across along ", axes[thin],
-                  ", fewer than 3: its particles move nearly as one. Take a smaller spacing."));
+             sentence("the body is ", n_cells, " cells across along ", axes[thin],
+                      ", fewer than 3: its particles move nearly as one. Take a smaller spacing."));
       if (extent.n >= 10 && extent.n_alone > 0.3 * extent.n)
       {
         const bool is_lattice = dynamic_cast<const LatticeShape<dim> *>(body.shape.get()) != nullptr;
         warn(body.get_section_name(),
-             is_lattice ? "Particles per cell and direction" : body.shape->is_list() ? "File" : "Particles",
-             text(100 * extent.n_alone / extent.n, " % of the body's particles are alone in their cell: the body is too "
-                  "thin for this grid and may fall apart. Take more particles, or a larger spacing."));
+             is_lattice            ? "Particles per cell and direction" :
+             body.shape->is_list() ? "File" :
+                                     "Particles",
+             sentence(100 * extent.n_alone / extent.n,
+                      " % of the body's particles are alone in their cell: the body is too "
+                      "thin for this grid and may fall apart. Take more particles, or a larger spacing."));
       }
     }
   }
@@ -188,27 +182,28 @@ namespace Talus
       for (const double time : {0., end_time})
         if (const double here = -model.acceleration.value(Point<dim>(middle), time)[up]; std::abs(here) > std::abs(g))
           g = here;
-      const double weight = model.materials[body.material]->density * g;
-      const double stress = layer->unit_weight * std::max(0., layer->surface_level - bottom);
-      const std::string column = text("At the body's base, ", axes[up], " = ", bottom, ", the initial stress is ", stress,
-                                      ", and the weight of the body above it ", weight * (top - bottom), ".");
+      const double      weight = model.materials[body.material]->density * g;
+      const double      stress = layer->unit_weight * std::max(0., layer->surface_level - bottom);
+      const std::string column =
+        sentence("At the body's base, ", axes[up], " = ", bottom, ", the initial stress is ", stress,
+                 ", and the weight of the body above it ", weight * (top - bottom), ".");
       if (!(std::abs(layer->unit_weight - weight) <= 0.02 * std::abs(weight)))
         warn(body.get_section_name(), "Unit weight",
-             text("it is ", layer->unit_weight, ", but density times body force is ", weight,
-                  ": the body will not be at rest. ", column));
+             sentence("it is ", layer->unit_weight, ", but density times body force is ", weight,
+                      ": the body will not be at rest. ", column));
       if (layer->surface_level < top - round_off)
         warn(body.get_section_name(), "Surface level",
-             text("it is ", layer->surface_level, ", but the body reaches up to ", axes[up], " = ", top,
-                  ": what lies above the level begins without stress. ", column));
+             sentence("it is ", layer->surface_level, ", but the body reaches up to ", axes[up], " = ", top,
+                      ": what lies above the level begins without stress. ", column));
     }
   }
 
   template <int dim>
   void Checks<dim>::check_yield()
   {
-    const auto        &particles = model.particles;
-    const auto         ranges    = material_ranges(model.particles, /* dt = */ 0.);
-    std::vector<double> changes(extents.size(), 0.); // largest change over the stress
+    const auto                        &particles = model.particles;
+    const auto                         ranges    = material_ranges(model.particles, /* dt = */ 0.);
+    std::vector<double>                changes(extents.size(), 0.); // largest change over the stress
     std::vector<std::array<double, 6>> now(extents.size()), then(extents.size());
     for (unsigned int m = 0; m < ranges.size(); ++m)
       for (unsigned int p = ranges[m].begin; p < ranges[m].end; ++p)
@@ -241,9 +236,9 @@ namespace Talus
       // The shape of a cone that is matched to another law leaves a few percent open.
       if (change > 0.05)
         warn(model.bodies[b]->get_section_name(), "Initial stress",
-             text("it lies outside the yield surface of '", model.material_names[model.bodies[b]->material],
-                  "': the first step takes (xx, yy, zz) = (", before[0], ", ", before[1], ", ", before[2], ") to (",
-                  after[0], ", ", after[1], ", ", after[2], "). Change the ratio of rest, or the strength."));
+             sentence("it lies outside the yield surface of '", model.material_names[model.bodies[b]->material],
+                      "': the first step takes (xx, yy, zz) = (", before[0], ", ", before[1], ", ", before[2], ") to (",
+                      after[0], ", ", after[1], ", ", after[2], "). Change the ratio of rest, or the strength."));
     }
   }
 

@@ -7,20 +7,8 @@
 namespace Talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    template <class... Parts>
-    std::string text(const Parts &...parts)
-    {
-      std::ostringstream out;
-      out << std::setprecision(4);
-      (out << ... << parts);
-      return out.str();
-    }
-
-    const char *const axes = "xyz";
-  } // namespace
+  using internal::axes;
+  using internal::sentence;
 
   template <int dim>
   void Checks<dim>::check_intervals()
@@ -29,10 +17,11 @@ namespace Talus
     {
       if (condition->start() >= end_time)
         warn(condition->get_section_name(), "Start time",
-             text("the condition never acts: it begins at ", condition->start(), " and the run ends at ", end_time, "."));
+             sentence("the condition never acts: it begins at ", condition->start(), " and the run ends at ", end_time,
+                      "."));
       if (condition->end() <= 0)
         warn(condition->get_section_name(), "End time",
-             text("the condition never acts: it ends at ", condition->end(), ", and the run begins at 0."));
+             sentence("the condition never acts: it ends at ", condition->end(), ", and the run begins at 0."));
     }
   }
 
@@ -41,8 +30,8 @@ namespace Talus
   {
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
-      return; // a mesh has no lines of nodes
-    constexpr double    near    = 0.1, tolerance = 1e-6; // [h]
+      return;                                         // a mesh has no lines of nodes
+    constexpr double    near = 0.1, tolerance = 1e-6; // [h]
     const Lattice<dim> &lattice = box->lattice;
     for (const auto &condition : model.boundary.conditions)
       for (const auto &edge : condition->edges())
@@ -53,9 +42,9 @@ namespace Talus
         const double beyond = edge.is_upper ? line - c : c - line;
         if (line >= 0 && line <= lattice.n_cells[d] && beyond > tolerance && beyond < near)
           warn(condition->get_section_name(), edge.entry,
-               text(axes[d], " = ", edge.position, " leaves out the nodes at ", axes[d], " = ",
-                    lattice.node_position(static_cast<int>(line), d), ", ", beyond,
-                    " spacings away. Move it onto them if they are meant."));
+               sentence(axes[d], " = ", edge.position, " leaves out the nodes at ", axes[d], " = ",
+                        lattice.node_position(static_cast<int>(line), d), ", ", beyond,
+                        " spacings away. Move it onto them if they are meant."));
       }
   }
 
@@ -74,8 +63,9 @@ namespace Talus
       const bool is_upper = b[d] > 0;
       for (unsigned int body = 0; body < extents.size(); ++body)
       {
-        const Extent &extent   = extents[body];
-        const double  distance = is_upper ? model.grid.upper[d] - extent.upper[d] : extent.lower[d] - model.grid.lower[d];
+        const Extent &extent = extents[body];
+        const double  distance =
+          is_upper ? model.grid.upper[d] - extent.upper[d] : extent.lower[d] - model.grid.lower[d];
         if (distance > 0.5 * std::abs(b[d]) * end_time * end_time)
           continue; // it does not come there in time
         bool is_held = false;
@@ -93,9 +83,9 @@ namespace Talus
         if (Utilities::MPI::max(is_held ? 1 : 0, model.grid.communicator) == 0)
         {
           warn("/Conditions", "Names",
-               text("the body '", model.bodies[body]->name, "' falls along ", axes[d], ", and nothing holds it: the face ",
-                    axes[d], is_upper ? "+" : "-", " of the grid has no condition. Give one with 'Boundary ids = ",
-                    2 * d + is_upper, "'."));
+               sentence("the body '", model.bodies[body]->name, "' falls along ", axes[d],
+                        ", and nothing holds it: the face ", axes[d], is_upper ? "+" : "-",
+                        " of the grid has no condition. Give one with 'Boundary ids = ", 2 * d + is_upper, "'."));
           break;
         }
       }
@@ -134,23 +124,23 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_steps(const double step_size, const double signal_speed, const unsigned int max_steps)
   {
-    const double h        = model.grid.smallest_spacing;
-    const bool   is_fixed = std::strtod(parameters.value("/Run", "Step size", "0").c_str(), nullptr) > 0;
-    const std::string entry = is_fixed ? "Step size" : "Courant number";
-    const double n_steps    = end_time / step_size;
+    const double      h        = model.grid.smallest_spacing;
+    const bool        is_fixed = std::strtod(parameters.value("/Run", "Step size", "0").c_str(), nullptr) > 0;
+    const std::string entry    = is_fixed ? "Step size" : "Courant number";
+    const double      n_steps  = end_time / step_size;
     if (n_steps > 1e9 && max_steps == 0)
       warn("/Run", "End time",
-           text("the run takes ", n_steps, " steps of ", step_size, " to the end time ", end_time,
-                ". Check the units of times and stiffnesses."));
+           sentence("the run takes ", n_steps, " steps of ", step_size, " to the end time ", end_time,
+                    ". Check the units of times and stiffnesses."));
     const double b = model.acceleration.value(model.grid.lower + (model.grid.upper - model.grid.lower) / 2, 0.).norm();
     if (0.5 * b * step_size * step_size > h)
       warn("/Run", entry,
-           text("in one step of ", step_size, " a particle falls over more than a cell: ",
-                0.5 * b * step_size * step_size / h, " spacings. Take smaller steps, or check the stiffness."));
+           sentence("in one step of ", step_size, " a particle falls over more than a cell: ",
+                    0.5 * b * step_size * step_size / h, " spacings. Take smaller steps, or check the stiffness."));
     if (is_fixed && step_size * signal_speed > h * (1 + 1e-9))
       warn("/Run", "Step size",
-           text("it is ", step_size, ", but a signal crosses a cell in ", h / signal_speed,
-                ": steps as long as that are unstable. Take ", 0.4 * h / signal_speed, "."));
+           sentence("it is ", step_size, ", but a signal crosses a cell in ", h / signal_speed,
+                    ": steps as long as that are unstable. Take ", 0.4 * h / signal_speed, "."));
   }
 
 #define INSTANTIATE(dim)                                                                                               \

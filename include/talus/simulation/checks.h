@@ -3,8 +3,26 @@
 #include <talus/core/parameters.h>
 #include <talus/steppers/model.h>
 
+#include <iomanip>
+#include <sstream>
+
 namespace Talus
 {
+  namespace internal
+  {
+    /** The parts one after the other, numbers with four digits: the sentence of a check. */
+    template <class... Parts>
+    std::string sentence(const Parts &...parts)
+    {
+      std::ostringstream out;
+      out << std::setprecision(4);
+      (out << ... << parts);
+      return out.str();
+    }
+
+    constexpr const char *axes = "xyz";
+  } // namespace internal
+
   /**
    * Looks before the first step for what can be computed but is hardly meant: initial stresses that the weight does not
    * balance, bodies of few cells, conditions that never act, a body under gravity with nothing below it. What may be
