@@ -63,9 +63,9 @@ namespace Talus
     bind<dim>(quantities, zeros.data(), arrays);
     arrays.stress.fill(zeros.data());
 
-    auto form = kernel.lattice_form();
-    if (form)
-      form.emplace(LatticeForm<dim>{form->function, form->lattice, *treatment});
+    CompiledForm<dim> form = kernel.compiled_form();
+    if (const auto own = kernel.lattice_form())
+      form.template emplace<LatticeForm<dim>>(LatticeForm<dim>{own->function, own->lattice, *treatment});
     // Nodes that are not active are not read.
     fields.clear(grid.active_nodes);
     Loops<dim, Average<dim>>::particle_to_grid({}, arrays, particles, kernel, form, no_force, 0., begin, end, grid,

@@ -14,6 +14,7 @@ DECLARE(motion)
 DECLARE(nodal_force)
 DECLARE(batched_and_plain)
 DECLARE(batched_and_plain_slip)
+DECLARE(domains_and_lists)
 DECLARE(wall_shear)
 DECLARE(slip_conservation)
 DECLARE(projection_definition)
@@ -67,6 +68,8 @@ int main(int argc, char **argv)
                     {"batched and plain 3D", batched_and_plain<3>},
                     {"batched and plain, slip 2D", batched_and_plain_slip<2>},
                     {"batched and plain, slip 3D", batched_and_plain_slip<3>},
+                    {"domains and lists 2D", domains_and_lists<2>},
+                    {"domains and lists 3D", domains_and_lists<3>},
                     {"wall shear 2D", wall_shear<2>},
                     {"wall shear 3D", wall_shear<3>},
                     {"slip: conservation 2D", slip_conservation<2>},

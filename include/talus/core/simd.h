@@ -26,6 +26,7 @@ namespace Talus
   struct Register<n>                                                                                                   \
   {                                                                                                                    \
     typedef double    Double __attribute__((vector_size(n * sizeof(double))));                                         \
+    typedef double    AnyPlace __attribute__((vector_size(n * sizeof(double)), aligned(8), may_alias));                \
     typedef long long Integer __attribute__((vector_size(n * sizeof(double))));                                        \
     typedef int       Index __attribute__((vector_size(n * sizeof(int))));                                             \
   };
@@ -119,8 +120,9 @@ namespace Talus
     static constexpr int n_part  = width < native_width ? width : native_width; // lanes of a part
     static constexpr int n_parts = width / n_part;
 
-    using Part    = typename internal::Register<n_part>::Double;
-    using Integer = typename internal::Register<n_part>::Integer;
+    using Part     = typename internal::Register<n_part>::Double;
+    using AnyPlace = typename internal::Register<n_part>::AnyPlace; // a part, which needs no alignment
+    using Integer  = typename internal::Register<n_part>::Integer;
 
     /** True (all bits set) or false for each lane. */
     struct Mask
@@ -174,14 +176,22 @@ namespace Talus
         part[i] = x - Part{}; // the same x in all lanes
     }
 
+    // Part by part: a compiler may copy memory in smaller pieces, and a register that is read from what has just been
+    // written so has to wait for all of them.
+
     /** The lanes at consecutive places from `x`, which need no alignment. */
     static Simd load(const double *x)
     {
       Simd result;
-      std::memcpy(result.part, x, sizeof(result.part));
+      for (int i = 0; i < n_parts; ++i)
+        result.part[i] = *reinterpret_cast<const AnyPlace *>(x + i * n_part);
       return result;
     }
-    void store(double *x) const { std::memcpy(x, part, sizeof(part)); }
+    void store(double *x) const
+    {
+      for (int i = 0; i < n_parts; ++i)
+        *reinterpret_cast<AnyPlace *>(x + i * n_part) = part[i];
+    }
 
     /** The first `count` doubles from `x`, again and again: lane l is x[l % count]. */
     template <int count>
@@ -197,8 +207,14 @@ namespace Talus
     /** The first four lanes, of more. */
     Simd<4> first_four() const
     {
-      Simd<4> result;
-      std::memcpy(result.part, part, sizeof(result.part));
+      return Simd<4>::load(data());
+    }
+
+    /** With other numbers in the first four lanes, of more. */
+    Simd with_first_four(const Simd<4> &x) const
+    {
+      Simd result = *this;
+      x.store(reinterpret_cast<double *>(result.part));
       return result;
     }
 

@@ -8,6 +8,24 @@ namespace Talus
 {
   namespace internal
   {
+    /** Lanes block * width .. of a number of more. */
+    template <int width, int n>
+    [[gnu::always_inline]] inline auto get_part(const Simd<n> &x, const int block)
+    {
+      if constexpr (Simd<n>::n_part == width)
+        return x.part[block];
+      else
+        return Simd<width>::load(x.data() + block * width).part[0];
+    }
+    template <int width, int n>
+    [[gnu::always_inline]] inline void set_part(Simd<n> &x, const int block, const typename Register<width>::Double &part)
+    {
+      if constexpr (Simd<n>::n_part == width)
+        x.part[block] = part;
+      else
+        std::memcpy(reinterpret_cast<char *>(x.part) + block * sizeof(part), &part, sizeof(part));
+    }
+
     /** Exchanges the off-diagonal blocks of size d in two rows of a matrix of registers. */
     template <int d, typename Part, std::size_t... k>
     [[gnu::always_inline]] inline void exchange(Part &a, Part &b, std::index_sequence<k...>)
@@ -64,7 +82,7 @@ namespace Talus
         part[i] = rows[block * width + i].part[0];
       internal::transpose_blocks<width, width>(part);
       for (int l = 0; l < width; ++l)
-        std::memcpy(reinterpret_cast<char *>(columns[l].part) + block * sizeof(part[l]), &part[l], sizeof(part[l]));
+        internal::set_part<width>(columns[l], block, part[l]);
     }
   }
 
@@ -80,7 +98,7 @@ namespace Talus
       for (int i = 0; i < width; ++i)
         part[i] = rows[block * width + i].part[0];
       internal::fold_rows<width, 1>(part);
-      std::memcpy(reinterpret_cast<char *>(sums.part) + block * sizeof(part[0]), &part[0], sizeof(part[0]));
+      internal::set_part<width>(sums, block, part[0]);
     }
     return sums;
   }
@@ -106,7 +124,7 @@ namespace Talus
       {
         Part part[width];
         for (int l = 0; l < width; ++l)
-          std::memcpy(&part[l], columns[l].data() + block * width, sizeof(part[l]));
+          part[l] = internal::get_part<width>(columns[l], block);
         internal::transpose_blocks<width, width>(part);
         for (int i = 0; i < width; ++i)
           rows[block * width + i].part[0] = part[i];

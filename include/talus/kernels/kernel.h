@@ -9,6 +9,7 @@
 #include <talus/particles/working_set.h>
 
 #include <optional>
+#include <variant>
 
 namespace Talus
 {
@@ -23,6 +24,18 @@ namespace Talus
     const Lattice<dim>   &lattice;
     const Treatment<dim> &treatment;
   };
+
+  /** A kernel that averages hat functions of a lattice over the corners of particle domains: see CornerHats. */
+  template <int dim>
+  struct DomainForm
+  {
+    const Lattice<dim> &lattice;
+    unsigned int        half_edges; // the field
+  };
+
+  /** The form of a kernel for which loops are compiled. */
+  template <int dim>
+  using CompiledForm = std::variant<std::monostate, LatticeForm<dim>, DomainForm<dim>>;
 
   /** A kernel function: gives particles their stencils. */
   template <int dim>
@@ -56,7 +69,17 @@ namespace Talus
      */
     virtual std::optional<double> greatest_stiffness(const double /* a */, const double /* b */) const { return {}; }
 
-    /** The form for which batched loops are compiled, if the kernel has it; all others run through lists. */
+    // Forms for which loops are compiled, if the kernel has one; all others run through lists.
     virtual std::optional<LatticeForm<dim>> lattice_form() const { return {}; }
+    virtual std::optional<DomainForm<dim>>  domain_form() const { return {}; }
+
+    CompiledForm<dim> compiled_form() const
+    {
+      if (const auto form = lattice_form())
+        return *form;
+      if (const auto form = domain_form())
+        return *form;
+      return {};
+    }
   };
 } // namespace Talus

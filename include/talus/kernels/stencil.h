@@ -5,7 +5,6 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <array>
-#include <numeric>
 
 namespace Talus
 {
@@ -21,15 +20,6 @@ namespace Talus
     static constexpr unsigned int width = 8; // there is always room for whole registers
     using Lanes                         = Simd<width>;
 
-    /** One number of each node: that of node k is row[k] after the first. */
-    struct Column
-    {
-      double             *first = nullptr;
-      const unsigned int *row   = nullptr;
-
-      double &operator[](const std::size_t k) const { return first[row[k]]; }
-    };
-
     Stencil() { reserve(16); }
 
     /** Makes room for n nodes and forgets what there was. */
@@ -43,30 +33,13 @@ namespace Talus
         place.resize(capacity);
         beyond.resize(capacity);
         numbers.resize_fast(n_columns * capacity);
-        rows.resize_fast(capacity);
-        std::iota(rows.begin(), rows.end(), 0u);
+        weight = numbers.data();
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          offset[d]   = weight + (1 + d) * capacity;
+          gradient[d] = weight + (1 + dim + d) * capacity;
+        }
       }
-      set_columns(numbers.data(), place.size(), rows.data());
-    }
-
-    /**
-     * Lists n nodes whose numbers somebody else keeps, for instance those of a batch in the lanes of registers: column
-     * j, of the weight, the offsets, the gradients, begins `column` j after `numbers`, and has node k `row[k]` farther
-     * on.
-     */
-    void share(const unsigned int n, double *numbers, const std::size_t column, const unsigned int *row)
-    {
-      size       = n;
-      has_images = false;
-      set_columns(numbers, column, row);
-    }
-
-    /** Memory for share(), which the first stencil of a batch keeps for the others. */
-    double *keep(const std::size_t n)
-    {
-      if (n > kept.size())
-        kept.resize_fast(n);
-      return kept.data();
     }
 
     static constexpr unsigned int n_columns = 1 + 2 * dim;
@@ -85,19 +58,13 @@ namespace Talus
     {
       reserve(n);
       size = n;
-      Arrays arrays{place.data(), weight.first, {}, {}, (n + width - 1) / width * width};
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        arrays.offset[d]   = offset[d].first;
-        arrays.gradient[d] = gradient[d].first;
-      }
-      return arrays;
+      return {place.data(), weight, offset, gradient, (n + width - 1) / width * width};
     }
 
     unsigned int                        size = 0;
     dealii::AlignedVector<unsigned int> place;
-    Column                              weight;
-    std::array<Column, dim>             offset, gradient; // all columns have the same rows
+    double                             *weight;
+    std::array<double *, dim>           offset, gradient;
 
     // Where a treatment mirrors nodes in slip walls.
     bool                                 has_images = false;
@@ -110,17 +77,6 @@ namespace Talus
     Stencil &operator=(Stencil &&)      = default;
 
   private:
-    void set_columns(double *first, const std::size_t column, const unsigned int *row)
-    {
-      weight = {first, row};
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        offset[d]   = {first + (1 + d) * column, row};
-        gradient[d] = {first + (1 + dim + d) * column, row};
-      }
-    }
-
-    dealii::AlignedVector<unsigned int> rows;          // 0, 1, ...
-    dealii::AlignedVector<double>       numbers, kept; // of all columns, and of those of a batch
+    dealii::AlignedVector<double> numbers; // of all columns
   };
 } // namespace Talus

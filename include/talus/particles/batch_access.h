@@ -29,6 +29,18 @@ namespace Talus
     return value;
   }
 
+  /** A symmetric tensor field, stored as xx, yy, zz, xy (, xz, yz). */
+  template <int dim, class Batch, std::size_t n>
+  dealii::Tensor<2, dim, typename Batch::Number> symmetric_matrix(const Batch                   &batch,
+                                                                  const std::array<double *, n> &columns)
+  {
+    dealii::Tensor<2, dim, typename Batch::Number> value;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int e = 0; e < dim; ++e)
+        value[d][e] = batch.load(columns[d == e ? d : 2 + d + e]);
+    return value;
+  }
+
   template <int dim, class Batch>
   void store_vector(const Batch &batch, const std::array<double *, dim> &columns,
                     const dealii::Tensor<1, dim, typename Batch::Number> &value)

@@ -7,8 +7,8 @@ namespace Talus
 {
   /**
    * The transfer of a scheme that scatters once and gathers once; see Scheme for
-   * how they differ. Kernels that are products over the axes run through the compiled
-   * loops, all others, and `is_plain`, through lists.
+   * how they differ. Kernels that have a form for which loops are compiled run through those,
+   * all others, and `is_plain`, through lists.
    */
   template <int dim, template <int> class Scheme>
   class AffineTransfer : public Transfer<dim>
@@ -62,9 +62,9 @@ namespace Talus
     using Lists = ListLoops<dim, Scheme<dim>>;
 
     /** None for those that are to run through lists. */
-    std::optional<LatticeForm<dim>> form(const Kernel<dim> &kernel) const
+    CompiledForm<dim> form(const Kernel<dim> &kernel) const
     {
-      return this->is_plain ? std::nullopt : kernel.lattice_form();
+      return this->is_plain ? CompiledForm<dim>() : kernel.compiled_form();
     }
 
     TransferArrays<dim> arrays(WorkingSet<dim> &particles) const

@@ -23,22 +23,15 @@ namespace Talus
                                  const LatticeForm<dim> &kernel, const BodyForce<dim> &acceleration, const double time,
                                  const unsigned int begin, const unsigned int end, NodalFields<dim> &fields)
     {
-      const Lattice<dim>  &lattice   = kernel.lattice;
-      const auto           uniform_b = acceleration.uniform_value(time);
-      const auto          &place = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
-      const Evaluator      evaluator(function, lattice, kernel.treatment);
-      LatticeBatch<dim, n> stencil;
+      const Lattice<dim>         &lattice = kernel.lattice;
+      const BodyForceOnBatch<dim> body_force(acceleration, arrays, time);
+      const Evaluator             evaluator(function, lattice, kernel.treatment);
+      LatticeBatch<dim, n>        stencil;
       for_each_batch(begin, end, [&](const auto batch) {
         const auto x = load_vector<dim>(batch, arrays.position);
         evaluator.locate(x, stencil);
         evaluator.evaluate(stencil);
-        VectorNumber b;
-        for (unsigned int d = 0; d < dim; ++d)
-          b[d] = uniform_b[d];
-        if (acceleration.depends_on_space())
-          b = body_force(acceleration, load_vector<dim>(batch, place), time);
-
-        const BatchScatter<dim, Scheme, Function> scatter(scheme, arrays, batch, stencil, b, lattice);
+        const BatchScatter<dim, Scheme, Function> scatter(scheme, arrays, batch, stencil, body_force(batch), lattice);
         scatter.add(lattice, stencil, batch.size(), fields);
       });
     }
@@ -74,7 +67,6 @@ namespace Talus
 
     using Fields       = NodalFields<dim>;
     using Number       = Simd<native_width>;
-    using VectorNumber = dealii::Tensor<1, dim, Number>;
     using Evaluator    = BatchEvaluator<dim, Function>;
     using Polynomials  = PolynomialGather<dim, Scheme, Function>;
 

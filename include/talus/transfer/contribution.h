@@ -27,12 +27,20 @@ namespace Talus
     [[gnu::always_inline]] void set(const TransferArrays<dim> &arrays, const Batch &batch,
                                     const dealii::Tensor<2, dim, Number> &C, const dealii::Tensor<1, dim, Number> &b)
     {
-      const Number m = batch.load(arrays.mass), V = batch.load(arrays.volume);
-      Number       rows[8] = {0., 0., 0., 0., 0., 0., 0., 0.};
-      rows[Fields::mass]   = m; // Eq. (13)
+      set(batch.load(arrays.mass), batch.load(arrays.volume), load_vector<dim>(batch, arrays.velocity), b, C,
+          symmetric_matrix<dim>(batch, arrays.stress));
+    }
+
+    /** The same of mass m, volume V, velocity v; C and the stress times whatever directions `linear` is to go with. */
+    [[gnu::always_inline]] void set(const Number &m, const Number &V, const dealii::Tensor<1, dim, Number> &v,
+                                    const dealii::Tensor<1, dim, Number> &b, const dealii::Tensor<2, dim, Number> &C,
+                                    const dealii::Tensor<2, dim, Number> &stress)
+    {
+      Number rows[8]     = {0., 0., 0., 0., 0., 0., 0., 0.};
+      rows[Fields::mass] = m; // Eq. (13)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        rows[Fields::momentum + d] = m * batch.load(arrays.velocity[d]); // Eq. (15)
+        rows[Fields::momentum + d] = m * v[d]; // Eq. (15)
         rows[Fields::force + d]    = m * b[d];                           // Eq. (12)
       }
       lanes_to_vectors<native_width>(rows, constant);
@@ -42,8 +50,7 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
         {
           rows[Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
-          // Eq. (11); xy, xz, yz follow the three diagonal components.
-          rows[Fields::force + d] = -V * batch.load(arrays.stress[d == e ? d : 2 + d + e]);
+          rows[Fields::force + d]    = -V * stress[d][e]; // Eq. (11)
         }
         lanes_to_vectors<native_width>(rows, linear[e]);
       }

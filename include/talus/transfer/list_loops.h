@@ -17,7 +17,6 @@ namespace Talus
   class ListLoops
   {
     using Number = Simd<native_width>;
-    using Vector = dealii::Tensor<1, dim, Number>;
     using Matrix = dealii::Tensor<2, dim, Number>;
     using Moment = dealii::SymmetricTensor<2, dim, Number>;
 
@@ -28,16 +27,10 @@ namespace Talus
                                  const BodyForce<dim> &acceleration, const double time, const unsigned int begin,
                                  const unsigned int end, const Grid<dim> &grid, NodalFields<dim> &fields)
     {
-      const auto   uniform_b = acceleration.uniform_value(time);
-      const auto  &place     = acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position;
-      const double h         = grid.largest_spacing;
-      Contribution<dim, Scheme> add;
+      const BodyForceOnBatch<dim> body_force(acceleration, arrays, time);
+      const double                h = grid.largest_spacing;
+      Contribution<dim, Scheme>   add;
       for_each_list(particles, kernel, begin, end, [&](const auto batch, const Stencil<dim> *stencils) {
-        Vector b;
-        for (unsigned int d = 0; d < dim; ++d)
-          b[d] = uniform_b[d];
-        if (acceleration.depends_on_space())
-          b = body_force(acceleration, load_vector<dim>(batch, place), time);
         Matrix C;
         if constexpr (Scheme::is_affine)
         {
@@ -50,7 +43,7 @@ namespace Talus
                 C[c / dim][c % dim].set(l, C_p[c / dim][c % dim]);
             }
         }
-        add.set(arrays, batch, C, b);
+        add.set(arrays, batch, C, body_force(batch));
         for (unsigned int l = 0; l < batch.size(); ++l)
           scatter(add, l, stencils[l], fields);
       });
@@ -131,24 +124,22 @@ namespace Talus
       const Node          constant = add.constant[l];
       Node                moment[dim], force[dim];
       const unsigned int *place  = stencil.place.data();
-      const double       *weight = stencil.weight.first, *offset[dim], *gradient[dim];
-      const unsigned int *row    = stencil.weight.row;
+      const double       *weight = stencil.weight, *offset[dim], *gradient[dim];
       for (unsigned int d = 0; d < dim; ++d)
       {
         moment[d]   = add.moment(d, l);
         force[d]    = add.force(d, l);
-        offset[d]   = stencil.offset[d].first;
-        gradient[d] = stencil.gradient[d].first;
+        offset[d]   = stencil.offset[d];
+        gradient[d] = stencil.gradient[d];
       }
       const auto value = [&](const unsigned int k) {
-        const std::size_t i       = row[k];
-        Node              at_node = constant;
+        Node at_node = constant;
         if constexpr (Scheme::is_affine)
           for (unsigned int d = 0; d < dim; ++d)
-            at_node += offset[d][i] * moment[d];
-        at_node *= weight[i];
+            at_node += offset[d][k] * moment[d];
+        at_node *= weight[k];
         for (unsigned int d = 0; d < dim; ++d)
-          at_node += gradient[d][i] * force[d];
+          at_node += gradient[d][k] * force[d];
         return at_node;
       };
       double *const first = fields.at_place(0);
@@ -188,14 +179,13 @@ namespace Talus
           Node node = Node::load(fields.at_place(stencil.place[k]));
           if (stencil.has_images && stencil.beyond[k] != 0)
             node *= Node::load(Fields::mirror(stencil.beyond[k]));
-          const std::size_t i   = stencil.weight.row[k];
-          const double      phi = stencil.weight.first[i];
+          const double phi = stencil.weight[k];
           phi_v += phi * node;
           for (unsigned int d = 0; d < dim; ++d)
           {
-            gradient_v[d] += stencil.gradient[d].first[i] * node;
+            gradient_v[d] += stencil.gradient[d][k] * node;
             if constexpr (Scheme::gathers_B)
-              moment_v[d] += (phi * stencil.offset[d].first[i]) * node;
+              moment_v[d] += (phi * stencil.offset[d][k]) * node;
           }
         }
         value[l] = phi_v;

@@ -1,18 +1,19 @@
 #pragma once
 
 #include <talus/transfer/batched_loops.h>
+#include <talus/transfer/domain_loops.h>
 #include <talus/transfer/list_loops.h>
 
 namespace Talus
 {
   /**
-   * Both passes of a scheme with any kernel: through the compiled loops where it has a lattice form, else through lists.
+   * Both passes of a scheme with any kernel: through the loops compiled for its form, or through lists.
    * The nodes' numbers are in `fields`, those of the grid or others of its nodes.
    */
   template <int dim, class Scheme>
   struct Loops
   {
-    using Form = std::optional<LatticeForm<dim>>;
+    using Form = CompiledForm<dim>;
 
     /** Eqs. (11)-(19): what the particles begin .. end - 1 add to the nodes. */
     static void particle_to_grid(const Scheme &scheme, const TransferArrays<dim> &arrays,
@@ -20,13 +21,16 @@ namespace Talus
                                  const BodyForce<dim> &acceleration, const double time, const unsigned int begin,
                                  const unsigned int end, const Grid<dim> &grid, NodalFields<dim> &fields)
     {
-      if (form)
+      if (const auto *lattice = std::get_if<LatticeForm<dim>>(&form))
         std::visit(
           [&](const auto &function) {
-            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, *form, acceleration, time, begin,
+            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, *lattice, acceleration, time, begin,
                                                           end, fields);
           },
-          form->function);
+          lattice->function);
+      else if (const auto *domain = std::get_if<DomainForm<dim>>(&form))
+        DomainLoops<dim, Scheme>::particle_to_grid(scheme, arrays, particles, *domain, acceleration, time, begin, end,
+                                                   grid, fields);
       else
         ListLoops<dim, Scheme>::particle_to_grid(scheme, arrays, particles, kernel, acceleration, time, begin, end,
                                                  grid, fields);
@@ -38,13 +42,15 @@ namespace Talus
                                    const Grid<dim> &grid, const NodalFields<dim> &fields, const double dt,
                                    const unsigned int begin, const unsigned int end)
     {
-      if (form)
+      if (const auto *lattice = std::get_if<LatticeForm<dim>>(&form))
         return std::visit(
           [&](const auto &function) {
-            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *form, fields, dt, begin,
+            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *lattice, fields, dt, begin,
                                                                  end);
           },
-          form->function);
+          lattice->function);
+      if (const auto *domain = std::get_if<DomainForm<dim>>(&form))
+        return DomainLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, *domain, fields, dt, begin, end);
       return ListLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, kernel, grid, fields, dt, begin, end);
     }
 

@@ -108,6 +108,35 @@ namespace Talus
     return b;
   }
 
+  /** The same for batch after batch, at one time; quick where the body force is uniform. */
+  template <int dim>
+  class BodyForceOnBatch
+  {
+  public:
+    BodyForceOnBatch(const BodyForce<dim> &acceleration, const TransferArrays<dim> &arrays, const double time) :
+      acceleration(acceleration), uniform(acceleration.uniform_value(time)), time(time),
+      place(acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position)
+    {
+    }
+
+    template <class Batch>
+    [[gnu::always_inline]] dealii::Tensor<1, dim, typename Batch::Number> operator()(const Batch &batch) const
+    {
+      if (acceleration.depends_on_space())
+        return body_force(acceleration, load_vector<dim>(batch, place), time);
+      dealii::Tensor<1, dim, typename Batch::Number> b;
+      for (unsigned int d = 0; d < dim; ++d)
+        b[d] = uniform[d];
+      return b;
+    }
+
+  private:
+    const BodyForce<dim>            &acceleration;
+    const dealii::Tensor<1, dim>     uniform;
+    const double                     time;
+    const std::array<double *, dim> &place;
+  };
+
   /** What a batch does with what it has gathered; returns the largest displacement along an axis [spacing]. */
   template <int dim, class Scheme, class Batch>
   [[gnu::always_inline]] inline typename Batch::Number advance(const Scheme &scheme, const TransferArrays<dim> &arrays,
