@@ -142,8 +142,13 @@ namespace
       for (int l = 0; l < width; ++l)
         error += (pairs[l] != numbers[1 + l % 2]) + (fours[l] != numbers[l % 4]);
       if constexpr (width >= 4)
+      {
+        const auto replaced = Number::load(numbers).with_first_four(Simd<4>(-1.));
+        for (int l = 0; l < width; ++l)
+          error += replaced[l] != (l < 4 ? -1. : numbers[l]);
         for (int l = 0; l < 4; ++l)
           error += Number::load(numbers).first_four()[l] != numbers[l];
+      }
       check(name + "repeated loads", error, 0.5);
     }
 
