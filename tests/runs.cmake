@@ -70,6 +70,7 @@ endforeach()
 talus_compare(walls_2d ghost_APIC "${ranks}" "Transfer/Type = APIC")
 talus_compare(walls_2d ghost_cubic_FLIP "${ranks}" "Kernel/Type = cubic B-spline" "Transfer/Type = FLIP")
 talus_compare(walls_2d ghost_uGIMP_blend "1;4" "Kernel/Type = uGIMP" "Transfer/Type = blend" "Run/Courant number = 0.2")
+talus_compare(walls_2d ghost_MUSL "1;2" "Run/MUSL = true")
 talus_compare(walls_3d ghost_TPIC "${ranks}" "Transfer/Type = TPIC")
 talus_compare(pool_3d ghost_TPIC "${ranks}" "Kernel/Boundary treatment = ghost nodes")
 # Writing output must not change the run.

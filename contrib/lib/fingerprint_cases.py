@@ -4,7 +4,7 @@ import itertools
 
 KERNELS = {"linear": "linear", "quadratic": "quadratic B-spline", "cubic": "cubic B-spline", "ugimp": "uGIMP"}
 TREATMENTS = {"none": "none", "steffen": "Steffen", "wls": "WLS", "separable": "WLS separable",
-              "everywhere": "WLS everywhere", "mls": "MLS", "mirror": "mirror"}
+              "everywhere": "WLS everywhere", "mls": "MLS", "mirror": "mirror", "ghost": "ghost nodes"}
 TRANSFERS = {"flip": "FLIP", "pic": "PIC", "blend": "blend", "apic": "APIC", "tpic": "TPIC"}
 MATERIALS = {"elastic": {"Type": "linear elastic"}, "neo": {"Type": "neo-Hookean"},
              "mises": {"Type": "von Mises", "Yield stress": 2000, "Hardening": "exponential softening",
@@ -37,8 +37,11 @@ class Case:
         return f"contrib/lib/fingerprint_{self.dim}d.prm"
 
 
-def walls(text):
-    return {f"Conditions/{kind}/Boundary ids": faces for kind, faces in zip(CONDITIONS.values(), text.split())}
+def walls(text, dim):
+    faces = dict(zip(CONDITIONS.values(), text.split()))
+    normals = {int(face) // 2 for face in faces["rough"].split(",")}
+    along = "; ".join("0" if d in normals else "0.1" for d in range(dim))  # walls move along themselves
+    return {**{f"Conditions/{kind}/Boundary ids": ids for kind, ids in faces.items()}, "Conditions/rough/Wall velocity": along}
 
 
 class Makes:
@@ -55,13 +58,15 @@ class Makes:
         turn = next(self.turns[dim])
         materials = materials or turn[0]
         settings = {"Kernel/Type": KERNELS[kernel], "Kernel/Boundary treatment": TREATMENTS[treatment],
-                    "Transfer/Type": TRANSFERS[transfer], **walls(SLIP[dim] if slip else turn[1])}
+                    "Transfer/Type": TRANSFERS[transfer], **walls(SLIP[dim] if slip else turn[1], dim)}
         fields = FIELDS + (["affine moment"] if transfer == "apic" else [])
         for name, material in zip(("first", "second"), materials):
             settings.update({f"Materials/{name}/{entry}": value for entry, value in MATERIALS[material].items()})
             fields += [field for field in STATES.get(material, []) if field not in fields]
         if materials[1] == "fluid":  # bears no shear at rest
             settings["Bodies/roof/Stress"] = "-200, -200, -200, 0, 0, 0"
+        if materials[1] == "neo":  # has its stress from its deformation alone
+            settings["Bodies/roof/Initial stress"] = "none"
         if plain:
             settings["Run/Loops"] = "plain"
         # Steffen's functions create energy, linear ones cannot follow large motions; cubic ones let particles stray far.

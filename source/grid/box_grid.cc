@@ -79,14 +79,15 @@ namespace Talus
   void BoxGrid<dim>::set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n)
   {
     AssertDimension(faces.size(), fields.n_owned());
-    fields.clear();
-    for (unsigned int i = 0; i < fields.n_owned(); ++i)
-      fields[i][0] = faces[i];
-    fields.update_copies();
-    std::vector<typename Lattice<dim>::Faces> of_nodes(fields.n_local());
-    for (unsigned int i = 0; i < fields.n_local(); ++i)
-      of_nodes[i] = static_cast<typename Lattice<dim>::Faces>(fields[i][0]);
-    fields.clear();
+    NodalArray<1> shared;
+    shared.reinit(nodes);
+    for (const auto &neighbour : nodes.copied_by)
+      for (const unsigned int i : neighbour.nodes)
+        *shared[i] = faces[i];
+    shared.update_copies();
+    auto of_nodes = faces;
+    for (unsigned int i = fields.n_owned(); i < fields.n_local(); ++i)
+      of_nodes.push_back(static_cast<typename Lattice<dim>::Faces>(*shared[i]));
     lattice.find_slip_faces(of_nodes, n);
   }
 

@@ -33,20 +33,30 @@ namespace Talus
   void Grid<dim>::spread(std::vector<char> &of_nodes)
   {
     // Tell the owners what reaches into their nodes, and those who have copies what the owners know.
-    fields.clear();
-    for (unsigned int i = 0; i < fields.n_local(); ++i)
-      fields[i][0] = of_nodes[i];
-    fields.add_copies_to_owners();
-    fields.update_copies();
-    for (unsigned int i = 0; i < fields.n_local(); ++i)
-      of_nodes[i] = fields[i][0] > 0;
-    fields.clear();
+    NodalArray<1> marks;
+    marks.reinit(nodes);
+    const auto for_shared_nodes = [&](const auto &body) {
+      for (const auto &neighbours : {nodes.copied_by, nodes.copied_from})
+        for (const auto &neighbour : neighbours)
+          for (const unsigned int i : neighbour.nodes)
+            body(i);
+    };
+    for_shared_nodes([&](const unsigned int i) { *marks[i] = of_nodes[i]; });
+    marks.add_copies_to_owners();
+    marks.update_copies();
+    for_shared_nodes([&](const unsigned int i) { of_nodes[i] = *marks[i] > 0; });
   }
 
   template <int dim>
   void Grid<dim>::activate_nodes(std::vector<char> is_reached)
   {
     spread(is_reached);
+    // Those that remain are cleared in the next step; the others may hold something of the last one. At first all are
+    // active and zero: memory that does not exist is not asked for.
+    const auto is_zero = [](const double number) { return number == 0; };
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+      if (is_active[i] && !is_reached[i] && !std::all_of(fields[i], fields[i] + fields.stride, is_zero))
+        std::fill_n(fields[i], fields.stride, 0.);
     is_active.assign(is_reached.begin(), is_reached.end());
     collect_active_nodes();
   }

@@ -28,7 +28,7 @@ namespace Talus
       });
     }
 
-    /** The home's particles were many small pieces, which the C library would keep for later. */
+    /** The handler's particles were many small pieces, which the C library would keep for later. */
     void return_free_memory()
     {
 #ifdef __GLIBC__
@@ -52,7 +52,7 @@ namespace Talus
                               const std::vector<std::unique_ptr<Material>> &materials)
   {
     this->grid = &grid;
-    home =
+    handler =
       std::make_unique<dealii::Particles::ParticleHandler<dim>>(grid.triangulation, grid.mapping, this->n_columns());
 
     // A rank's share and some more: what is reserved too much is never touched, and growing step by step costs time.
@@ -60,9 +60,9 @@ namespace Talus
     for (const auto &body : bodies)
       n_indices += body->shape->n_indices();
     this->reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
-    // The home is emptied by portions that fit into the cache.
+    // The handler is emptied by portions that fit into the cache.
     constexpr unsigned int portion = 1 << 14;
-    unsigned int           n_home  = 0;
+    unsigned int           n_handled  = 0;
 
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
@@ -88,19 +88,19 @@ namespace Talus
           visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
             const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
-            home->insert_particle(location, grid.unit_point(cell, location), body.first_id + i,
+            handler->insert_particle(location, grid.unit_point(cell, location), body.first_id + i,
                                   cell, make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];
             volume_created[b] += volume;
-            if (++n_home == portion)
+            if (++n_handled == portion)
             {
-              load(n_home);
-              n_home = 0;
+              load(n_handled);
+              n_handled = 0;
             }
           });
     }
-    load(n_home);
+    load(n_handled);
     if (this->keeps_places)
       for (unsigned int p = 0; p < this->size(); ++p)
         this->place[p] = grid.cell_number(Point<dim>(this->vector(this->position, p)));
@@ -127,7 +127,7 @@ namespace Talus
   {
     unsigned int p = this->size();
     this->resize(p + n);
-    for (auto &particle : *home)
+    for (auto &particle : *handler)
     {
       this->id[p]           = particle.get_id();
       this->body[p]         = body_of(this->id[p]);
@@ -137,7 +137,7 @@ namespace Talus
       ++p;
     }
     AssertDimension(p, this->size());
-    home->clear();
+    handler->clear();
   }
 
 #define INSTANTIATE(dim)                                                                                               \

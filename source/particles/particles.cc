@@ -10,6 +10,37 @@ namespace Talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    struct Key
+    {
+      std::size_t  number; // of material and place
+      unsigned int particle;
+    };
+
+    /** Sorts keys by their numbers, digit by digit from the lowest: what that takes hangs on the keys alone. */
+    void sort_by_number(std::vector<Key> &keys)
+    {
+      constexpr unsigned int n_bits = 11, n_digits = 1u << n_bits;
+      std::size_t            largest = 0;
+      for (const Key &key : keys)
+        largest = std::max(largest, key.number);
+      std::vector<Key> sorted(keys.size());
+      for (unsigned int shift = 0; largest >> shift != 0; shift += n_bits)
+      {
+        const auto digit = [shift](const Key &key) { return key.number >> shift & (n_digits - 1); };
+        std::array<unsigned int, n_digits + 1> begin{};
+        for (const Key &key : keys)
+          ++begin[digit(key) + 1];
+        for (unsigned int k = 0; k < n_digits; ++k)
+          begin[k + 1] += begin[k];
+        for (const Key &key : keys)
+          sorted[begin[digit(key)]++] = key;
+        keys.swap(sorted);
+      }
+    }
+  } // namespace
+
   template <int dim>
   void Particles<dim>::set_reach(Grid<dim> &grid, const Reach &reach)
   {
@@ -178,30 +209,31 @@ namespace Talus
   void Particles<dim>::sort(const std::vector<bool> &is_gone)
   {
     ++arrangement;
-    // Counting sort by material and place; particles are few for each, and mostly in order.
-    const auto                at       = places();
-    const std::size_t         n_places = grid->n_places(), n_materials = this->material_begin.size() - 1;
-    std::vector<unsigned int> begin(n_materials * n_places + 1, 0);
-    std::vector<std::size_t>  key(this->size());
-    for (unsigned int p = 0; p < this->size(); ++p)
-    {
-      if (!is_gone.empty() && is_gone[p])
-        continue;
-      check_place(p, at[p]);
-      key[p] = body_material[this->body[p]] * n_places + at[p];
-      ++begin[key[p] + 1];
-    }
-    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-      begin[k + 1] += begin[k];
-    std::vector<unsigned int> order(begin.back()), next(begin.begin(), begin.end() - 1);
+    const auto               at       = places();
+    const std::size_t        n_places = grid->n_places(), n_materials = this->material_begin.size() - 1;
+    std::vector<Key>         keys;
+    keys.reserve(this->size());
     for (unsigned int p = 0; p < this->size(); ++p)
       if (is_gone.empty() || !is_gone[p])
-        order[next[key[p]]++] = p;
-    for (std::size_t k = 0; k + 1 < begin.size(); ++k)
-      std::sort(order.begin() + begin[k], order.begin() + begin[k + 1],
-                [&](const unsigned int a, const unsigned int b) { return this->id[a] < this->id[b]; });
-    for (unsigned int m = 0; m <= n_materials; ++m)
-      this->material_begin[m] = begin[m * n_places];
+      {
+        check_place(p, at[p]);
+        keys.push_back({body_material[this->body[p]] * n_places + at[p], p});
+      }
+    sort_by_number(keys);
+    // Particles are few for each place, and mostly in order.
+    for (auto begin = keys.begin(), end = begin; begin != keys.end(); begin = end)
+    {
+      end = std::find_if(begin, keys.end(), [&](const Key &key) { return key.number != begin->number; });
+      std::sort(begin, end, [&](const Key &a, const Key &b) { return this->id[a.particle] < this->id[b.particle]; });
+    }
+    for (std::size_t m = 0; m <= n_materials; ++m)
+      this->material_begin[m] =
+        std::partition_point(keys.begin(), keys.end(), [&](const Key &key) { return key.number < m * n_places; }) -
+        keys.begin();
+    std::vector<unsigned int> order;
+    order.reserve(keys.size());
+    for (const Key &key : keys)
+      order.push_back(key.particle);
     this->permute(order);
   }
 

@@ -45,7 +45,8 @@ namespace Talus
       "Particle fields", field_names,
       "Fields of the particles to write, beside id, body and material: stored ones (velocity, stress, ...), "
       "displacement, von Mises stress, pressure, density, volume ratio, kinetic energy density.");
-    add_parameter("Grid", with_grid, "Write mass and velocity of the nodes as well.");
+    add_parameter("Grid", with_grid, "Write mass and velocity of the nodes near material as well.");
+    add_parameter("Whole grid", with_whole_grid, "Write all cells of the grid, and not only those near material.");
     add_parameter("CSV", with_csv, "Write the particles as a CSV table as well.");
   }
 
@@ -105,7 +106,7 @@ namespace Talus
       write_particle_csv(path + "/" + file_name("particles", number, ".csv"), particles, fields, time, communicator);
     if (with_grid)
     {
-      GridOutput<dim> grid_output(grid);
+      GridOutput<dim> grid_output(grid, with_whole_grid);
       write_vtu(grid_output, "grid", {{"mass", "mass"}, {"velocity", "length/time"}});
     }
   }

@@ -105,6 +105,10 @@ namespace Talus
         warn(section, entry, "it has no effect: " + reason);
     };
     idle("/Run", "Courant number", number("/Run", "Step size") > 0, "'Step size' says how long steps are.");
+    if (model.walls.has_ghosts() && parameters.value("/Transfer", "Slip projection", "false") == "true")
+      throw EntryError("/Transfer", "Slip projection",
+                       "it acts on kernels that a wall cuts off, and with 'Boundary treatment = ghost nodes' none is. Leave it "
+                       "out: ghost nodes make floors quiet themselves.");
     const std::string transfer = parameters.value("/Transfer", "Type", "TPIC");
     for (const auto &body : model.bodies)
     {

@@ -51,6 +51,7 @@ namespace Talus
     f_bar            = timing.add("F-bar");
 
     raise_mass_floor(model);
+    upkeep.run(model, Report());
     if (courant_number == 0)
     {
       // FLIP and PIC bear least.
@@ -93,12 +94,13 @@ namespace Talus
   template <int dim>
   std::string Explicit<dim>::warning(const Model<dim> &model) const
   {
-    const auto limit = model.lone_particle_limit(model.transfer->stiffness_factors());
-    if (fixed_step_size > 0 || !limit || courant_number <= *limit)
+    const auto of_fluid = model.lone_particle_limit(model.transfer->stiffness_factors());
+    if (fixed_step_size > 0 || !of_fluid || courant_number <= *of_fluid * model.material_factor())
       return "";
     std::ostringstream text;
-    text << "warning: the Courant number " << courant_number << " is above " << std::setprecision(3) << *limit
-         << ", what single particles of a fluid bear with this kernel and transfer. Full bodies bear more.\n";
+    text << "warning: the Courant number " << courant_number << " is above " << std::setprecision(3)
+         << *of_fluid * model.material_factor()
+         << ", what single particles bear with this kernel, transfer and material. Full bodies bear more.\n";
     return text.str();
   }
 

@@ -165,6 +165,15 @@ namespace Talus
   }
 
   template <int dim>
+  double Model<dim>::material_factor() const
+  {
+    double most = 0; // l / (l + 2 G)
+    for (const auto &material : materials)
+      most = std::max(most, material->rest_stress_ratio());
+    return std::sqrt(dim / (1 + (dim - 1) * most));
+  }
+
+  template <int dim>
   void Model<dim>::check_memory() const
   {
     // A body fills a third of the lattice around it at least, and particles take what they carry.

@@ -189,8 +189,8 @@ namespace Talus
     if (!limit)
       return "";
     std::ostringstream text;
-    text << " Lone particles need a Courant number of at most " << std::setprecision(3) << *limit
-         << " with this kernel and transfer.";
+    text << " Lone particles need a Courant number of at most " << std::setprecision(3) << *limit * model.material_factor()
+         << " with this kernel, transfer and material.";
     return text.str();
   }
 

@@ -118,6 +118,10 @@ CASES = {
     "entries": [
         wrong_entry("unknown entry", "set Courant number", "set Courant numbr", "Courant numbr",
                     "Did you mean 'Courant number'"),
+        Case("slip projection beside ghost nodes",
+             [("set Type = quadratic B-spline", "set Type = quadratic B-spline\n  set Boundary treatment = ghost nodes\nend\n"
+               "subsection Transfer\n  set Slip projection = true")],
+             ["'Slip projection' in section 'Transfer'", "with 'Boundary treatment = ghost nodes' none is", "Leave it out"]),
         Case("unknown section", [("subsection Run\n", "subsection Rum\n")],
              ["case.prm:[34]: ", "section 'Rum'", "Did you mean 'Run'"]),
         wrong_entry("misspelt kernel", "quadratic B-spline", "quadratic Bspline", "Type", "no 'quadratic Bspline'",

@@ -18,6 +18,7 @@ DECLARE(drift)
 DECLARE(outside)
 DECLARE(unknown_nodes)
 DECLARE(balance)
+DECLARE(home)
 DECLARE(surfaces)
 DECLARE(half_edges_of_shapes)
 DECLARE(ring)
@@ -75,6 +76,8 @@ int main(int argc, char **argv)
                     {"unknown nodes 3D", unknown_nodes<3>},
                     {"balance 2D", balance<2>},
                     {"balance 3D", balance<3>},
+                    {"home 2D", home<2>},
+                    {"home 3D", home<3>},
                     {"surfaces 2D", surfaces<2>},
                     {"surfaces 3D", surfaces<3>},
                     {"half edges 2D", half_edges_of_shapes<2>},

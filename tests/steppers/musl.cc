@@ -15,15 +15,20 @@ namespace
 
   template <int dim>
   std::string run_text(const std::string &kernel, const std::string &transfer, const std::string &more,
-                       const std::array<double, 3> &lower, const std::array<double, 3> &upper)
+                       const std::array<double, 3> &lower, const std::array<double, 3> &upper,
+                       const std::string &treatment = "")
   {
-    return grid_text<dim>() + section("Kernel", set("Type", kernel)) + section("Transfer", set("Type", transfer)) +
+    return grid_text<dim>() +
+           section("Kernel", set("Type", kernel) + (treatment.empty() ? "" : set("Boundary treatment", treatment))) + section("Transfer", set("Type", transfer)) +
            section("Run", more) +
            body_text(set("Lower corner", coordinates<dim>(lower)) + set("Upper corner", coordinates<dim>(upper)) +
                      set("Jitter", "0.3"));
   }
 
-  /** Sums of all ranks at nodes, which their places in the grid tell apart: mass, momentum. */
+  /**
+   * Sums of all ranks at nodes, which their places in the grid tell apart: mass, momentum. Nodes beyond no-slip walls are
+   * those before them with the other sign, on both ways.
+   */
   template <int dim>
   class NodeSums
   {
@@ -40,8 +45,9 @@ namespace
 
     void add(const Key &key, const double mass, const Tensor<1, dim> &momentum)
     {
-      sums[key].first += mass;
-      sums[key].second += momentum;
+      const auto [inside, sign] = mirrored(key);
+      sums[inside].first += mass;
+      sums[inside].second += sign * momentum;
     }
 
     void collect()
@@ -58,11 +64,24 @@ namespace
       for (const long k : key)
         if (has_walls && (k == 0 || k == 8))
           return {};
-      const auto &[m, p] = sums.at(key);
-      return m > 0 ? p / m : Tensor<1, dim>();
+      const auto [inside, sign] = mirrored(key);
+      const auto &[m, p]        = sums.at(inside);
+      return m > 0 ? sign * p / m : Tensor<1, dim>();
     }
 
   private:
+    static std::pair<Key, double> mirrored(Key key)
+    {
+      double sign = 1;
+      for (long &k : key)
+        if (k < 0 || k > 8)
+        {
+          k    = k < 0 ? -k : 16 - k;
+          sign = -sign;
+        }
+      return {key, sign};
+    }
+
     std::map<Key, std::pair<double, Tensor<1, dim>>> sums;
   };
 } // namespace
@@ -74,13 +93,15 @@ namespace
 template <int dim>
 void musl_definition()
 {
-  for (const std::string kernel : {"quadratic B-spline", "CPDI"})
+  using Choice = std::pair<std::string, std::string>;
+  for (const auto &[kernel, treatment] :
+       {Choice("quadratic B-spline", "WLS"), Choice("quadratic B-spline", "ghost nodes"), Choice("CPDI", "")})
     for (const bool has_walls : {false, true})
     {
       if (has_walls && kernel == "CPDI") // its domains must not reach beyond the grid
         continue;
       const double      end  = has_walls ? 1. : 0.75;
-      const std::string text = run_text<dim>(kernel, "FLIP", "", {{0.25, 0.25, 0.25}}, {{end, 0.7, 0.6}}) +
+      const std::string text = run_text<dim>(kernel, "FLIP", "", {{0.25, 0.25, 0.25}}, {{end, 0.7, 0.6}}, treatment) +
                                walls_text<dim>(has_walls ? "no-slip" : "free");
       Run<dim>   once(text), twice(text + section("Run", set("MUSL", "true")));
       const auto start = [](Run<dim> &run) {
@@ -101,7 +122,7 @@ void musl_definition()
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int p = 0; p < particles.size(); ++p)
             raise(same, once.columns(field)[c][p] - twice.columns(field)[c][p]);
-      const std::string name = kernel + (has_walls ? ", walls" : "");
+      const std::string name = kernel + (treatment.empty() ? "" : ", " + treatment) + (has_walls ? ", walls" : "");
       check(name + ": positions and velocities", same, 1e-15);
       if (has_walls)
       {

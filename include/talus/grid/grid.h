@@ -80,7 +80,8 @@ namespace Talus
 
     /**
      * Makes active what material may reach: all nodes of stencils that begin where `is_used`, on any rank, and some
-     * nodes more on each side. Empty space then costs nothing. Collective.
+     * nodes more on each side. Empty space then costs nothing. Fields of nodes that are no longer active become zero,
+     * and no others are touched. Collective.
      */
     virtual void activate(const std::vector<char> &is_used) = 0;
 
@@ -191,10 +192,10 @@ namespace Talus
          dealii::parallel::TriangulationBase<dim> &triangulation, dealii::DoFHandler<dim> &dof_handler,
          const dealii::Mapping<dim> &mapping);
 
-    /** Sets marks of local nodes that any rank has set; ends with all fields zero. Collective. */
+    /** Sets marks of local nodes that any rank has set. Collective. */
     void spread(std::vector<char> &of_nodes);
 
-    /** Makes active the nodes on which `is_reached`, of each local node, holds on any rank. Collective. */
+    /** Makes active, and no others, the nodes on which `is_reached`, of each local node, holds on any rank. Collective. */
     void activate_nodes(std::vector<char> is_reached);
 
     void activate_all();

@@ -10,8 +10,8 @@ namespace Talus
 {
   /**
    * All particles. deal.II's ParticleHandler is their *home*, in which they are
-   * created; the step runs on the *working set*, and between steps the home is
-   * empty, so that nothing is stored twice. Two things keep the working set in
+   * created and which whoever is not a part of the step may ask for; the step runs on the *working set*, and one of both
+   * is empty, so that nothing is stored twice. Two things keep the working set in
    * shape, each done when it is due and not in every step: migrate() sends those
    * that have gone too far to the rank of their cell, and sort() restores the order
    * of the cells, which keeps neighbours close in memory. synchronise() is both.
@@ -67,6 +67,20 @@ namespace Talus
       sort();
     }
 
+    /**
+     * Moves all particles into deal.II's ParticleHandler, and leaves the working set empty until take_back(). Each lies
+     * in a cell of its rank, where deal.II's iterators find it. Its properties are its columns, `fields` says which: the
+     * mass is get_properties()[fields[mass].first]. get_location() is its position, on a box moved off the faces of the
+     * cell by up to 1e-6 of it. Properties may be changed, but for the position, and particles be taken out. Collective.
+     */
+    dealii::Particles::ParticleHandler<dim> &home();
+
+    /**
+     * The way back: with what was changed there, in canonical order. Throws RunError for a particle that was added there,
+     * or whose position was moved. Collective.
+     */
+    void take_back();
+
     /** For each place, whether the stencil of a particle begins there. */
     std::vector<char> used_places() const;
 
@@ -83,7 +97,7 @@ namespace Talus
     std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places
 
   private:
-    /** Appends the n particles of the home to the working set, and empties the home. */
+    /** Appends the n particles of the handler to the working set, and empties the handler. */
     void load(const unsigned int n);
 
     /** What relocate() does for the corners of the particles' domains. */
@@ -116,7 +130,7 @@ namespace Talus
 
     Grid<dim>                                               *grid = nullptr;
     const BoxGrid<dim>                                      *box  = nullptr; // the same, where domains have corners
-    std::unique_ptr<dealii::Particles::ParticleHandler<dim>> home;
+    std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
 
     std::vector<std::uint64_t> body_begin; // first id of each body
     std::vector<unsigned int>  body_material;

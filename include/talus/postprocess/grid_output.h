@@ -6,13 +6,16 @@
 
 namespace Talus
 {
-  /** Mass and velocity of the nodes as they stand after a step, for deal.II's writers. */
+  /**
+   * Mass and velocity of the nodes as they stand after a step, for deal.II's writers: on the cells whose nodes are all
+   * active, which are those near material, or on all. Test: tests/postprocess.
+   */
   template <int dim>
   class GridOutput : public dealii::DataOut<dim>
   {
   public:
     /** Reads the nodes this rank owns and brings their values to its neighbours. Collective. */
-    explicit GridOutput(const Grid<dim> &grid);
+    explicit GridOutput(const Grid<dim> &grid, const bool has_all_cells = false);
 
     using dealii::DataOut<dim>::get_patches;
     using dealii::DataOut<dim>::get_dataset_names;

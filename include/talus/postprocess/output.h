@@ -69,7 +69,7 @@ namespace Talus
     unsigned int             step_interval       = 0;
     unsigned int             statistics_interval = 1;
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
-    bool                     with_grid = true, with_csv = false, with_final_state = true;
+    bool                     with_grid = true, with_whole_grid = false, with_csv = false, with_final_state = true;
 
     MPI_Comm                        communicator = MPI_COMM_NULL;
     std::vector<ParticleField<dim>> fields;

@@ -43,6 +43,12 @@ namespace Talus
      */
     std::optional<double> lone_particle_limit(const std::array<double, 2> &stiffness_factors) const;
 
+    /**
+     * How much more than a fluid's a lone particle of this run's materials bears: sqrt(d (l + 2 G) / (d l + 2 G)) of the
+     * least, with their Lame constants.
+     */
+    double material_factor() const;
+
     /** Registers what the parts know of the last step, for all ranks. */
     void add_to(Reduction &reduction);
 
