@@ -83,11 +83,10 @@ namespace Talus
           Number across[n_points][n_across];
           for (unsigned int q = 0; q < n_points; ++q)
             multiply(factor[1][b][q], factor[dim - 1][c][q], across[q]);
-          // Two nodes at a time keep more sums going than one, which waits for its own.
           int a = 0;
-          for (; a + 2 <= n[0]; a += 2)
-            add_nodes<2>({{a, b, c}}, across, lattice, sums);
-          if (a < n[0])
+          for (; a + together <= n[0]; a += together)
+            add_nodes<together>({{a, b, c}}, across, lattice, sums);
+          for (; a < n[0]; ++a)
             add_nodes<1>({{a, b, c}}, across, lattice, sums);
         }
     }
@@ -116,6 +115,8 @@ namespace Talus
     }
 
     static constexpr int          max_n       = 8;
+    // Two nodes at a time keep more sums going than one, which waits for its own; but the sums must fit into registers.
+    static constexpr int          together    = dim == 2 || native_width == 8 ? 2 : 1;
     static constexpr unsigned int n_across    = dim == 2 ? 3 : 6;
     static constexpr unsigned int n_moments   = ImlsBasis<dim, 1>::n_moments;
     static constexpr unsigned int n_registers = Imls<dim, 1>::n_registers;
