@@ -71,8 +71,7 @@ namespace Talus
   }
 
   template <int dim>
-  void MeshPartition<dim>::create(const std::function<MeshInput<dim>()>                             &read,
-                                  const std::function<double(const MeshInput<dim> &, unsigned int)> &weight)
+  void MeshPartition<dim>::create(const std::function<MeshInput<dim>()> &read, const Weight &weight)
   {
     const bool         is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
@@ -108,8 +107,13 @@ namespace Talus
         [&](Triangulation<dim> &whole) { create_triangulation(input, whole); },
         [&](Triangulation<dim> &whole, const MPI_Comm &, const unsigned int) {
           std::vector<double> weights(input.cells.size(), 1.);
-          for (unsigned int c = 0; weight && c < weights.size(); ++c)
-            weights[c] = weight(input, c);
+          if (weight && n_ranks > 1)
+          {
+            mesh.reinit(input.positions, input.cells);
+            finder = std::make_unique<CellFinder<dim>>(mesh);
+            for (const auto &cell : whole.active_cell_iterators())
+              weights[cell->active_cell_index()] = weight(cell);
+          }
           const auto part = partition_by_halves(input, weights, n_ranks);
           for (const auto &cell : whole.active_cell_iterators())
             cell->set_subdomain_id(part[cell->active_cell_index()]);

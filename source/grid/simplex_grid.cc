@@ -88,9 +88,11 @@ namespace Talus
   }
 
   template <int dim>
-  void SimplexGrid<dim>::create(const CellWeight &, const Reach &)
+  void SimplexGrid<dim>::create(const CellWeight &weight, const Reach &)
   {
-    this->partition.create([this] { return read(); });
+    // Material rules, as on boxes: cells without it are free but for their share of memory.
+    this->partition.create([this] { return read(); },
+                           [&](const CellIterator &cell) { return 1. + 1000. * weight(cell); });
     number_nodes();
     hold_boundaries();
     find_extent();

@@ -62,6 +62,7 @@ namespace Talus
     stiffness      = barrier.stiffness(pressure);
     slip_speed     = sticking_speed > 0 ? sticking_speed : 1e-3 * wave_speed;
     // A particle moves less than a spacing in a step: who is farther than two is not there within half of its distance.
+    surface->attach(grid);
     surface->create(std::max(barrier.reach, 2 * h));
     look_around(particles);
   }

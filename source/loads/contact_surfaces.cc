@@ -2,6 +2,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/registry.h>
 #include <talus/grid/closed_surface.h>
+#include <talus/grid/simplex_grid.h>
 #include <talus/loads/contact_surface.h>
 #include <talus/loads/nearest.h>
 
@@ -172,6 +173,49 @@ namespace Talus
       std::vector<double> shift = std::vector<double>(dim, 0.);
     };
 
+    /** The boundary of the grid's mesh, on every rank. */
+    template <int dim>
+    class MeshBoundary : public Facets<dim>
+    {
+    public:
+      using Facets<dim>::Facets;
+
+      void attach(const Grid<dim> &grid) override
+      {
+        simplex_grid(grid, this->get_section_name(), "Surface");
+        std::vector<Point<dim>> here;
+        for (const auto &cell : grid.triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary())
+              {
+                std::array<Point<dim>, dim> corner;
+                for (unsigned int k = 0; k < dim; ++k)
+                  corner[k] = face->vertex(k);
+                // All turned alike, as seen from the cells.
+                if (normal(corner) * (corner[0] - cell->barycenter()) < 0)
+                  std::swap(corner[0], corner[1]);
+                here.insert(here.end(), corner.begin(), corner.end());
+              }
+        corners.clear();
+        for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator, here))
+          corners.insert(corners.end(), of_rank.begin(), of_rank.end());
+      }
+
+    private:
+      static Tensor<1, dim> normal(const std::array<Point<dim>, dim> &corner)
+      {
+        if constexpr (dim == 2)
+          return cross_product_2d(corner[1] - corner[0]);
+        else
+          return cross_product_3d(corner[1] - corner[0], corner[2] - corner[0]);
+      }
+
+      ClosedSurface<dim> make() const override { return ClosedSurface<dim>(corners, "the boundary of the mesh"); }
+
+      std::vector<Point<dim>> corners;
+    };
+
     /** A sphere, or a circle, without facets. */
     template <int dim>
     class Ball : public ContactSurface<dim>
@@ -223,6 +267,7 @@ namespace Talus
 
     const RegisterDimensions<ContactSurface, Box>      box("box", "box between two corners");
     const RegisterDimensions<ContactSurface, Ball>     ball("ball", "sphere; a circle in 2D");
-    const RegisterDimensions<ContactSurface, FromFile> file("surface", "closed surface from an STL file; polygons");
+    const RegisterDimensions<ContactSurface, MeshBoundary> mesh("mesh", "boundary of the grid's mesh");
+    const RegisterDimensions<ContactSurface, FromFile>     file("surface", "closed surface from an STL file; polygons");
   } // namespace
 } // namespace Talus

@@ -32,6 +32,10 @@ namespace Talus
     add_parameter("Velocity gradient", velocity_gradient,
                   "Initial velocity gradient dv_i/dx_j row by row [1/time], for the affine transfers; empty: zero.",
                   prm, Patterns::List(Patterns::Double(), 0, dim * dim));
+    add_parameter("Deformation gradient", deformation_gradient,
+                  "Of the body as it lies at the start, dx_i/dX_j row by row [1], for laws whose stress is a function of "
+                  "it: neo-Hookean, Hooke; empty: the unit matrix.",
+                  prm, Patterns::List(Patterns::Double(), 0, dim * dim));
     stress_kind =
       parameters.choose_from(section, "Initial stress", "none", "none|uniform|geostatic|hydrostatic",
                              "Stress before the first step: none, uniform, that of a layer or of a liquid at rest.");
@@ -66,6 +70,11 @@ namespace Talus
     if (!velocity_gradient.empty() && velocity_gradient.size() != dim * dim)
       throw EntryError(get_section_name(), "Velocity gradient",
                        "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
+    if (starts_deformed() && deformation_gradient.size() != dim * dim)
+      throw EntryError(get_section_name(), "Deformation gradient",
+                       "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
+    if (starts_deformed() && !(determinant(initial_F()) > 0))
+      throw EntryError(get_section_name(), "Deformation gradient", "its determinant must be positive.");
     if (dim == 2 && stress_kind == "uniform" && (uniform_stress[4] != 0 || uniform_stress[5] != 0))
       throw EntryError(get_section_name(), "Stress", "plane strain has no shear stresses xz, yz. Set them to 0.");
     if (is_layered() && !(unit_weight > 0))
@@ -100,11 +109,21 @@ namespace Talus
       throw EntryError(get_section_name(), "Initial stress", refusal);
     for (unsigned int c = 0; c < set.n_stress; ++c)
       value(set.stress, c) = stress[c];
+    double J = 1;
+    if (starts_deformed())
+    {
+      if (!material.starts_deformed())
+        throw EntryError(get_section_name(), "Deformation gradient",
+                         "the stress of the body's material is no function of it. Use 'neo-Hookean', or 'Initial stress'.");
+      J = determinant(initial_F());
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        value(set.F, c) = deformation_gradient[c];
+    }
     const auto states = material.initial_states(stress);
     for (unsigned int k = 0; k < states.size(); ++k)
       value(set.state_fields[this->material][k], 0) = states[k];
     value(set.volume, 0) = volume;
-    value(set.mass, 0)   = volume * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
+    value(set.mass, 0)   = volume / J * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
     if (const auto field = set.find_field(set.half_edges_name))
     {
       const auto edges = shape->half_edges(x, volume);
@@ -113,6 +132,15 @@ namespace Talus
     }
     if (material.carries_volume_only())
       value(set.F, 0) = material.density * volume / value(set.mass, 0);
+  }
+
+  template <int dim>
+  Tensor<2, dim> Body<dim>::initial_F() const
+  {
+    Tensor<2, dim> F;
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      F[c / dim][c % dim] = deformation_gradient[c];
+    return F;
   }
 
   template <int dim>

@@ -1,5 +1,6 @@
 #include <talus/simulation/checks.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iomanip>
 #include <sstream>
@@ -51,6 +52,7 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_floor()
   {
+    const bool           is_box = dynamic_cast<const BoxGrid<dim> *>(&model.grid) != nullptr;
     const Tensor<1, dim> b = model.acceleration.value(model.grid.lower + (model.grid.upper - model.grid.lower) / 2, 0.);
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -68,24 +70,32 @@ namespace Talus
           is_upper ? model.grid.upper[d] - extent.upper[d] : extent.lower[d] - model.grid.lower[d];
         if (distance > 0.5 * std::abs(b[d]) * end_time * end_time)
           continue; // it does not come there in time
-        bool is_held = false;
+        // Something below it, or within the body, or nearly so, that holds it.
+        const auto holds = [&](const std::vector<unsigned int> &nodes) {
+          return std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int i) {
+            const auto x        = model.grid.node_position(i);
+            bool       is_below = true;
+            for (unsigned int e = 0; e < dim; ++e)
+              is_below = is_below && (x[e] > extent.lower[e] - 2 * model.grid.spacing[e] || (e == d && !is_upper)) &&
+                         (x[e] < extent.upper[e] + 2 * model.grid.spacing[e] || (e == d && is_upper));
+            return is_below;
+          });
+        };
+        bool is_held = !model.contacts.all.empty();
         for (const auto &condition : model.boundary.conditions)
-          for (const auto &list : condition->owned_nodes())
-            for (const unsigned int i : list)
-            {
-              const auto x        = model.grid.node_position(i);
-              bool       is_below = true; // or within the body, or nearly so
-              for (unsigned int e = 0; e < dim; ++e)
-                is_below = is_below && (x[e] > extent.lower[e] - 2 * model.grid.spacing[e] || (e == d && !is_upper)) &&
-                           (x[e] < extent.upper[e] + 2 * model.grid.spacing[e] || (e == d && is_upper));
-              is_held = is_held || is_below;
-            }
+        {
+          for (const auto &nodes : condition->owned_nodes())
+            is_held = is_held || holds(nodes);
+          for (const auto &part : condition->owned_parts())
+            is_held = is_held || holds(part.nodes);
+        }
         if (Utilities::MPI::max(is_held ? 1 : 0, model.grid.communicator) == 0)
         {
           warn("/Conditions", "Names",
-               sentence("the body '", model.bodies[body]->name, "' falls along ", axes[d],
-                        ", and nothing holds it: the face ", axes[d], is_upper ? "+" : "-",
-                        " of the grid has no condition. Give one with 'Boundary ids = ", 2 * d + is_upper, "'."));
+               sentence("the body '", model.bodies[body]->name, "' falls along ", axes[d], ", and nothing holds it: ",
+                        is_box ? "the face " : "the boundary at ", axes[d], is_upper ? "+" : "-",
+                        " of the grid has no condition. Give one with '",
+                        is_box ? "Boundary ids = " + std::to_string(2 * d + is_upper) : std::string("Boundaries"), "'."));
           break;
         }
       }

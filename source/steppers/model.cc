@@ -130,6 +130,9 @@ namespace Talus
     transfer->initialize(*kernel, particles);
     smoothing.initialize(materials, *kernel, particles, grid);
     f_bar.initialize(particles, grid);
+    for (const auto &body : bodies)
+      if (body->starts_deformed())
+        materials[body->material]->update(material_range(particles, body->material, /* dt = */ 0.));
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);
     contacts.attach(grid, materials, particles);

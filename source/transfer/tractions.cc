@@ -153,6 +153,12 @@ namespace Talus
         surface[0].x[d] = position[d];
       return surface;
     }
+    // What a mesh cuts off a surface no rank can say alone.
+    if (body.is_clipped && grid.keeps_places())
+      throw EntryError(get_section_name(), "Body",
+                       "'" + body.name +
+                         "' is clipped, and loads on clipped bodies need a box grid. Let the body end at the boundary "
+                         "of the mesh, with 'Clip to grid = false'.");
     SurfaceSpacing<dim> spacing;
     for (unsigned int d = 0; d < dim; ++d)
       spacing[d] = grid.spacing[d] / points_per_cell;

@@ -140,22 +140,33 @@ void contact_surfaces()
     a[d] = std::array<double, 3>{{-1, -0.5, -0.75}}[d];
     b[d] = std::array<double, 3>{{0.75, 1, 0.5}}[d];
   }
-  auto box = make("box", set("Lower corner", coordinates<dim>({{-1, -0.5, -0.75}})) +
-                           set("Upper corner", coordinates<dim>({{0.75, 1, 0.5}})));
+  const auto of_box = [&](const Point<dim> &y) {
+    double outside = 0, inside = -10;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double beyond = std::max(a[d] - y[d], y[d] - b[d]);
+      outside += std::pow(std::max(beyond, 0.), 2);
+      inside = std::max(inside, beyond);
+    }
+    return outside > 0 ? std::sqrt(outside) : inside;
+  };
+  const std::string corners = set("Lower corner", coordinates<dim>({{-1, -0.5, -0.75}})) +
+                              set("Upper corner", coordinates<dim>({{0.75, 1, 0.5}}));
+  auto box = make("box", corners);
   box->create(0.25);
-  compare(
-    "box", *box, 0.25,
-    [&](const Point<dim> &y) {
-      double outside = 0, inside = -10;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double beyond = std::max(a[d] - y[d], y[d] - b[d]);
-        outside += std::pow(std::max(beyond, 0.), 2);
-        inside = std::max(inside, beyond);
-      }
-      return outside > 0 ? std::sqrt(outside) : inside;
-    },
-    1e-14);
+  compare("box", *box, 0.25, of_box, 1e-14);
+
+  // The same box as the boundary of a mesh, whose faces belong to several ranks.
+  Parameters parameters =
+    Parameters::from_text(section("Grid", set("Type", "mesh") + set("Cells", coordinates<dim>({{7, 6, 5}})) + corners) +
+                          section("Kernel", set("Type", "P1")));
+  Model<dim> model(parameters, MPI_COMM_WORLD);
+  parameters.parse();
+  model.create();
+  auto boundary = make("mesh", "");
+  boundary->attach(model.grid);
+  boundary->create(0.25);
+  compare("boundary of a mesh", *boundary, 0.25, of_box, 1e-14);
 
   const auto of_ball = [](const Point<dim> &y) { return y.norm() - 0.8; };
   auto       ball    = make("ball", set("Radius", "0.8"));

@@ -18,6 +18,7 @@ DECLARE(moving_between_parts)
 DECLARE(generated_mesh)
 DECLARE(particles_on_a_mesh)
 DECLARE(transfers_on_a_mesh)
+DECLARE(shares_on_a_mesh)
 void mesh_grid_errors();
 void parts_errors();
 void many_moves_between_parts();
@@ -62,6 +63,8 @@ int main(int argc, char **argv)
                     {"particles on a mesh 3D", particles_on_a_mesh<3>},
                     {"transfers on a mesh 2D", transfers_on_a_mesh<2>},
                     {"transfers on a mesh 3D", transfers_on_a_mesh<3>},
+                    {"shares on a mesh 2D", shares_on_a_mesh<2>},
+                    {"shares on a mesh 3D", shares_on_a_mesh<3>},
                     {"mesh grid: errors", mesh_grid_errors},
                     {"long: many particles 3D", many_particles<3>},
                     {"long: many moves between parts 3D", many_moves_between_parts}});

@@ -210,6 +210,24 @@ void transfers_on_a_mesh()
   }
 }
 
+/** The ranks share the particles, not the cells: each halving errs by half of a cell's particles at most. */
+template <int dim>
+void shares_on_a_mesh()
+{
+  const double length = dim == 2 ? 0.35 : 0.3; // a corner of the mesh, on one side of the plate's hole
+  OnMesh<dim>  run(gmsh_grid<dim>() + section("Kernel", set("Type", "P1")) +
+                  box_body<dim>(0.01, length, set("Particles per cell and direction", dim == 2 ? "16" : "8")));
+  std::vector<unsigned int> of_cell(run.simplices().mesh().n_cells(), 0);
+  unsigned int              most = 0;
+  for (unsigned int p = 0; p < run.particles.size(); ++p)
+    most = std::max(most, ++of_cell[run.particles.place[p]]);
+  const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const double       share   = static_cast<double>(run.particles.n_global) / n_ranks;
+  check("particles of a rank less its share, over those of a cell", run.particles.size() - share,
+        std::max(0.5, max(most) * (n_ranks - 1.)));
+  check_true("cells have far fewer than a share", max(most) < 0.2 * share);
+}
+
 /** What cannot be run is refused, with the entry. */
 void mesh_grid_errors()
 {
@@ -231,6 +249,9 @@ void mesh_grid_errors()
   };
   error("unknown group", {"wall", "Boundaries", "no boundary 'floor'"},
         box_of_simplices<2>() + p1 + box_body<2>(0.5, 1) + wall(set("Boundaries", "floor")));
+  error("load on a clipped body", {"load", "Body", "loads on clipped bodies need a box grid"},
+        box_of_simplices<2>() + p1 + box_body<2>(0.5, 2.5, set("Clip to grid", "true")) +
+          section("Tractions", set("Names", "load") + section("load", set("Traction", "1; 0"))));
   error("number on a mesh", {"wall", "Boundary ids", "Give 'Boundaries'"},
         box_of_simplices<2>() + p1 + box_body<2>(0.5, 1) + wall(set("Boundary ids", "0")));
   error("name on a box", {"wall", "Boundaries", "Give 'Boundary ids'"}, wall(set("Boundaries", "lower x")) +
@@ -243,3 +264,4 @@ void mesh_grid_errors()
 INSTANTIATE(generated_mesh)
 INSTANTIATE(particles_on_a_mesh)
 INSTANTIATE(transfers_on_a_mesh)
+INSTANTIATE(shares_on_a_mesh)

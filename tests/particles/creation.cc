@@ -262,6 +262,40 @@ void hydrostatic()
   check("stress and density", error, 1e-13);
 }
 
+/** A body that starts compressed by .8 in all directions of the plane or of space: mass, F and stress in closed form. */
+template <int dim>
+void deformed()
+{
+  const auto text_of = [](const std::string &more, const std::string &type) {
+    std::string result = text(box<dim>(0, 1) + more);
+    return result.insert(result.find("set Density"), set("Type", type));
+  };
+  const std::string F = dim == 2 ? "0.8, 0, 0, 0.8" : "0.8, 0, 0, 0, 0.8, 0, 0, 0, 0.8";
+  Setup<dim>        setup(text_of(set("Deformation gradient", F), "neo-Hookean"));
+  auto             &set_of = setup.particles;
+  const double      J = std::pow(0.8, dim), mu = 7 / 2.4, lambda = 7 * 0.2 / (1.2 * 0.6);
+  double            error = 0;
+  for (unsigned int p = 0; p < set_of.size(); ++p)
+  {
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      raise(error, set_of.component(set_of.F, c)[p] - (c % (dim + 1) == 0 ? 0.8 : 0.));
+    for (unsigned int c = 0; c < set_of.n_stress; ++c)
+      raise(error, set_of.component(set_of.stress, c)[p] -
+                     (c < 3 ? (lambda * std::log(J) + mu * (c < dim ? 0.64 - 1 : 0.)) / J : 0.));
+  }
+  check("F and stress", error, 1e-13);
+  check("volume", total(setup, set_of.volume) - 1, 1e-13);
+  check("mass", total(setup, set_of.mass) - 3 / J, 1e-12);
+  const auto refused = [&](const std::string &name, const std::string &F, const std::string &type,
+                           const std::string &message) {
+    check_error<EntryError>(name, {"/Bodies/body: Deformation gradient", message},
+                            [&] { Setup<dim> s(text_of(set("Deformation gradient", F), type)); });
+  };
+  refused("inside out", (dim == 2 ? "-1, 0, 0, 1" : "-1, 0, 0, 0, 1, 0, 0, 0, 1"), "neo-Hookean", "positive");
+  refused("too few numbers", "1, 0", "neo-Hookean", "row by row");
+  refused("a law in rates", F, "linear elastic", "no function of it");
+}
+
 template <int dim>
 void body_errors()
 {
@@ -295,4 +329,5 @@ INSTANTIATE(round_bodies)
 INSTANTIATE(point_file)
 INSTANTIATE(initial_state)
 INSTANTIATE(hydrostatic)
+INSTANTIATE(deformed)
 INSTANTIATE(body_errors)

@@ -9,6 +9,7 @@ DECLARE(round_bodies)
 DECLARE(point_file)
 DECLARE(initial_state)
 DECLARE(hydrostatic)
+DECLARE(deformed)
 DECLARE(body_errors)
 DECLARE(synchronise)
 DECLARE(far_away)
@@ -58,6 +59,8 @@ int main(int argc, char **argv)
                     {"initial state 3D", initial_state<3>},
                     {"hydrostatic 2D", hydrostatic<2>},
                     {"hydrostatic 3D", hydrostatic<3>},
+                    {"deformed 2D", deformed<2>},
+                    {"deformed 3D", deformed<3>},
                     {"errors 2D", body_errors<2>},
                     {"errors 3D", body_errors<3>},
                     {"synchronise 2D", synchronise<2>},

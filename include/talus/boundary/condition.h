@@ -71,6 +71,9 @@ namespace Talus
     /** This rank's nodes, active or not: of each boundary id, of each half space, and of the box. */
     const std::vector<std::vector<unsigned int>> &owned_nodes() const { return all_nodes; }
 
+    /** The same of the named parts of a mesh's boundary. */
+    const std::vector<BoundaryPart<dim>> &owned_parts() const { return all_parts; }
+
     /** True when it leaves the nodes of its faces free to slide along them. */
     virtual bool is_slip() const { return false; }
 

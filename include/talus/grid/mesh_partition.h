@@ -29,12 +29,14 @@ namespace Talus
   public:
     explicit MeshPartition(MPI_Comm communicator);
 
+    using Weight = std::function<double(const typename dealii::Triangulation<dim>::active_cell_iterator &)>;
+
     /**
      * The root alone calls `read` and holds the whole mesh, for a while; what it throws, an InputError, is thrown on
-     * all ranks. `weight` of a cell by its number in the input; none: all are equal.
+     * all ranks. On several ranks the root asks for the `weight` of each cell, and `mesh` and find_here() are those of
+     * the whole as long as it does; none: all are equal.
      */
-    void create(const std::function<MeshInput<dim>()>                             &read,
-                const std::function<double(const MeshInput<dim> &, unsigned int)> &weight = {});
+    void create(const std::function<MeshInput<dim>()> &read, const Weight &weight = {});
 
     /** The cell of a point: its rank, and its number there. */
     struct Location

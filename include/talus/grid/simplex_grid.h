@@ -38,7 +38,6 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    /** The ranks have equally many cells, whatever their weights. */
     void create(const CellWeight &weight, const Reach &reach) override;
 
     bool                keeps_places() const override { return true; }

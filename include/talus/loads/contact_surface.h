@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/core/parameters.h>
+#include <talus/grid/grid.h>
 
 #include <deal.II/base/point.h>
 
@@ -25,6 +26,9 @@ namespace Talus
     using Point = dealii::Point<dim>;
 
     using dealii::ParameterAcceptor::ParameterAcceptor;
+
+    /** Looks at the grid, if the surface has to do with it. Before create(). Collective. */
+    virtual void attach(const Grid<dim> &) {}
 
     /** Prepares to find points up to `reach` away [length]. Throws EntryError for an impossible surface. */
     virtual void create(const double reach) = 0;

@@ -72,6 +72,9 @@ namespace Talus
      */
     virtual std::string refusal(const std::array<double, 6> & /* initial_stress */) const { return ""; }
 
+    /** Whether update() with dt = 0 gives the stress of any F: a body can then start deformed. */
+    virtual bool starts_deformed() const { return false; }
+
     /** What is possible and hardly meant among its entries: warnings before the first step. */
     virtual std::vector<EntryError> doubts() const { return {}; }
 

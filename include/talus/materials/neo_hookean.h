@@ -26,6 +26,7 @@ namespace Talus
     void wave_speeds(const MaterialRange &range, double *speeds) const override;
     void strain_energy_densities(const MaterialRange &range, double *densities) const override;
 
+    bool        starts_deformed() const override { return true; }
     std::string refusal(const std::array<double, 6> &initial_stress) const override;
   };
 } // namespace Talus

@@ -40,6 +40,9 @@ namespace Talus
 
     bool has_initial_stress() const { return stress_kind != "none"; }
 
+    /** Whether it starts with a deformation gradient, from which its material has the stress. */
+    bool starts_deformed() const { return !deformation_gradient.empty(); }
+
     std::string                 name;
     unsigned int                material; // index
     std::unique_ptr<Shape<dim>> shape;
@@ -50,12 +53,15 @@ namespace Talus
     /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */
     std::array<double, 6> initial_stress(const dealii::Point<dim> &x, const Material &material) const;
 
+    /** The deformation gradient at the start, if there is one. */
+    dealii::Tensor<2, dim> initial_F() const;
+
     /** True when the stress grows with the depth below a surface. */
     bool is_layered() const { return stress_kind == "geostatic" || stress_kind == "hydrostatic"; }
 
     ParsedVector<dim>   velocity;
     std::string         velocity_text;
-    std::vector<double> velocity_gradient;
+    std::vector<double> velocity_gradient, deformation_gradient;
 
     std::string         stress_kind;
     std::vector<double> uniform_stress;

@@ -1,0 +1,169 @@
+"""Failure of a slope in sensitive clay: Cao et al., section 3.5, and Zhao, Jiang and Choo (2023), in 3D, on tetrahedra and boxes.
+
+TALUS_SLOPE_EDGE and TALUS_SLOPE_WIDTH in the environment are the mesh's edge and the slope's width: .2 and 5 are the papers'
+size, 311 250 particles; the default is .5 and 2.
+"""
+import math
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import meshes
+import numpy as np
+import report
+from runs import Run
+
+TITLE = "slope in sensitive clay (3D): run-out, F-bar; UMLS on tetrahedra and quadratic B-splines"
+
+EDGE, WIDTH = float(os.environ.get("TALUS_SLOPE_EDGE", 0.5)), float(os.environ.get("TALUS_SLOPE_WIDTH", 2))
+TOE, G, DENSITY = 15., 9.81, 2150.
+PEAK, RESIDUAL, RATE = 40820 * math.sqrt(1.5), 2450 * math.sqrt(1.5), 5.
+FIELDS = "velocity, equivalent plastic strain, pressure, displacement, volume ratio, volume, seen volume, mass"
+GRIDS = {"UMLS": "prm/umls_slope.prm", "B-splines": "prm/clay_slope_3d.prm"}
+EARLY = 1.  # the pressure of runs without F-bar is looked at here [s]
+
+
+def run(grid, kind="whole"):
+    settings = {"Grid/Spacing": EDGE, "Output/Grid": "false", "Output/Particle fields": FIELDS}
+    if grid == "B-splines":
+        settings["Grid/Upper corner"] = f"30, 6, {WIDTH}"
+    if kind == "without F-bar":
+        settings.update({"Run/F-bar": "false", "Run/End time": EARLY,
+                         "Output/Particle fields": FIELDS.replace("seen volume, ", "")})
+    if kind == "momentum":
+        settings.update({"Run/Number of steps": 300, "Output/Statistics interval": 1})
+    return Run(GRIDS[grid], settings, {"grid": grid, "run": kind})
+
+
+def runs():
+    meshes.make("slope", 3, h=EDGE, width=WIDTH)
+    return [run(grid, kind) for kind in ("whole", "without F-bar", "momentum") for grid in GRIDS]
+
+
+def run_out(particles):
+    return np.max(particles["x"]) - TOE
+
+
+def dissipated(particles):
+    """By plastic strain: integral of the yield stress, times initial volumes."""
+    strain = particles["equivalent_plastic_strain"]
+    density = RESIDUAL * strain + (PEAK - RESIDUAL) * (1 - np.exp(-RATE * strain)) / RATE
+    return np.sum(particles["mass"] / DENSITY * density)
+
+
+def roughness(particles):
+    """
+    What is left of the mean stress after a plane has been fitted in each block of two edges, root mean square over all
+    particles in blocks of at least 12, over the pressure of the slope's height.
+    """
+    x = np.column_stack([particles[axis] for axis in "xyz"])
+    block = np.floor(x / (2 * EDGE)).astype(int)
+    _, number = np.unique(block, axis=0, return_inverse=True)
+    squares, n = 0., 0
+    for k in range(number.max() + 1):
+        here = np.flatnonzero(number == k)
+        if len(here) < 12:
+            continue
+        basis = np.column_stack([np.ones(len(here)), x[here] - np.mean(x[here], axis=0)])
+        pressure = particles["pressure"][here]
+        rest = pressure - basis @ np.linalg.lstsq(basis, pressure, rcond=None)[0]
+        squares, n = squares + np.sum(rest**2), n + len(here)
+    return math.sqrt(squares / n) / (DENSITY * G * 5)
+
+
+def J_range(particles):
+    """Of what the material sees: with F-bar its averages."""
+    volume = particles["seen_volume"] if "seen_volume" in particles else particles["volume"]
+    J = DENSITY * volume / particles["mass"]
+    return np.min(J), np.max(J)
+
+
+def energies(result):
+    """Of the last table's time: what is not accounted for over the work of gravity, and kinetic energy over its peak."""
+    columns, particles = result.statistics(), result.particles()
+    work = columns["body force work"][-1]
+    return ((columns["energy residual"][-1] + dissipated(particles)) / work,
+            columns["kinetic energy"][-1] / np.max(columns["kinetic energy"]))
+
+
+def momentum(result):
+    return meshes.impulses(result.statistics(), (0, -G, 0), "xyz", (("reaction sides", -1), ("reaction floor", -1)))
+
+
+def table(results):
+    rows = []
+    for result in results:
+        values = {name: math.nan for name in ("particles", "run-out", "J least", "J greatest", "rough", "rough early", "energy",
+                                              "kinetic", "momentum")}
+        if result.status == 0:
+            particles = result.particles()
+            values.update({"particles": len(particles["id"]), "run-out": run_out(particles),
+                           "rough": roughness(particles), "rough early": roughness(result.particles(EARLY))})
+            values["J least"], values["J greatest"] = J_range(particles)
+            if result.run.label["run"] == "momentum":
+                values["momentum"] = momentum(result)
+            else:
+                values["energy"], values["kinetic"] = energies(result)
+        rows.append({**result.run.label, **values, "steps": result.statistics()["step"][-1] if result.status == 0 else 0,
+                     "seconds": result.seconds})
+    return rows
+
+
+def figures(results):
+    rows = {(row["grid"], row["run"]): row for row in table(results)}
+    umls, box = (rows[grid, "whole"] for grid in GRIDS)
+    found = [report.Figure("run-out of UMLS over that of B-splines", umls["run-out"] / box["run-out"], 0.95, 1.05)]
+    for grid in GRIDS:
+        whole, early = rows[grid, "whole"], rows[grid, "without F-bar"]
+        found += [report.Figure(f"{grid}: least J that the clay sees", whole["J least"], lower=0.97),
+                  report.Figure(f"{grid}: greatest J that the clay sees", whole["J greatest"], upper=1.03),
+                  report.Figure(f"{grid}: mean stress off planes, with F-bar over without, t = {EARLY:g}",
+                                whole["rough early"] / early["rough early"], upper=0.3),
+                  report.Figure(f"{grid}: energy less all work and plastic dissipation, over that of gravity",
+                                whole["energy"], -0.01, 0.01),
+                  report.Figure(f"{grid}: kinetic energy at the end over its peak", whole["kinetic"], upper=1e-3),
+                  report.Figure(f"{grid}: momentum less all impulses", rows[grid, "momentum"]["momentum"], upper=1e-9)]
+    return found
+
+
+def scatter(axis, particles, values, **more):
+    order = np.argsort(-particles["z"])
+    return axis.scatter(particles["x"][order], particles["y"][order], c=values[order], s=14 * EDGE, linewidths=0, **more)
+
+
+def draw(results, path):
+    by = {(result.run.label["grid"], result.run.label["run"]): result for result in results if result.status == 0}
+    figure, axis = plt.subplots(figsize=(5, 3.2), layout="constrained")
+    for grid in GRIDS:
+        if (grid, "whole") in by:
+            result = by[grid, "whole"]
+            times = np.arange(0, result.statistics()["time"][-1] + 1e-9, 0.25)
+            axis.plot(times, [run_out(result.particles(time)) for time in times], label=grid)
+    axis.set(xlabel="t [s]", ylabel="run-out [m]", title="Farthest particle, from the toe")
+    axis.legend()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+    shown = [(grid, time) for time in (1, 2, 4, 12) for grid in GRIDS if (grid, "whole") in by]
+    for name, label, field, limits in (("strain", "equivalent plastic strain", "equivalent_plastic_strain", (0, 3)),
+                                       ("pressure", "pressure [Pa]", "pressure", (0, 1e5))):
+        figure, axes = plt.subplots(len(shown) // 2, 2, figsize=(10, 1.2 * len(shown)), layout="constrained", squeeze=False)
+        for axis, (grid, time) in zip(axes.flat, shown):
+            particles = by[grid, "whole"].particles(time)
+            drawn = scatter(axis, particles, particles[field], vmin=limits[0], vmax=limits[1])
+            axis.set(xlim=(0, 28), ylim=(0, 5.5), aspect="equal", xticks=[], yticks=[])
+            axis.set_title(f"{grid}, t = {time} s", fontsize=9)
+        figure.colorbar(drawn, ax=axes, shrink=0.6, label=label, extend="max")
+        figure.savefig(path.parent / f"slope_{name}.png", dpi=110)
+        plt.close(figure)
+    pairs = [(grid, kind) for grid in GRIDS for kind in ("without F-bar", "whole") if (grid, kind) in by]
+    figure, axes = plt.subplots(2, 2, figsize=(10, 4.6), layout="constrained")
+    for axis, key in zip(axes.flat, pairs):
+        particles = by[key].particles(EARLY)
+        drawn = scatter(axis, particles, particles["pressure"], vmin=-5e4, vmax=1.5e5)
+        axis.set(xlim=(0, 18), ylim=(0, 5.5), aspect="equal", xticks=[], yticks=[])
+        axis.set_title(f"{key[0]}, {'with' if key[1] == 'whole' else 'without'} F-bar, t = {EARLY:g} s", fontsize=9)
+    figure.colorbar(drawn, ax=axes, shrink=0.6, label="pressure [Pa]", extend="both")
+    figure.savefig(path.parent / "slope_f_bar.png", dpi=110)
+    plt.close(figure)
