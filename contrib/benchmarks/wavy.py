@@ -11,12 +11,12 @@ import report
 import runs as program
 from runs import Run
 
-TITLE = "ball in a wavy channel (2D, UMLS): particles at random, walls as conditions and as barriers"
+TITLE = "ball in a wavy channel (2D, UMLS): particles at random, walls that the mesh fits"
 
 A, K1, K2, WIDTH, BOTTOM, TOP = 0.35, 1.2, 0.5, 2., -19., 1.5
 RADIUS, G, N = 0.7, 9.81, 4735
 TIMES = (0, 1.4, 3.0, 6.5)
-WALLS = ("nodes", "barrier")
+WALLS = {"no-slip": "walls", "friction": "rough"}  # conditions
 POINTS = program.ROOT / "prm" / "meshes" / "wavy.txt"
 
 
@@ -35,10 +35,9 @@ def make_points():
 def run(walls):
     settings = {"Bodies/Names": "random", "Bodies/random/Shape": "points", "Bodies/random/File": POINTS,
                 "Output/Grid": "false"}
-    if walls == "barrier":
-        settings.update({"Conditions/Names": "", "Contacts/Names": "walls", "Contacts/walls/Surface": "mesh",
-                         "Contacts/walls/Distance": 0.0125, "Contacts/walls/Pressure": 5e3,
-                         "Contacts/walls/Friction coefficient": 1})
+    if walls == "friction":
+        settings.update({"Conditions/Names": "rough", "Conditions/rough/Type": "friction",
+                         "Conditions/rough/Friction coefficient": 1, "Conditions/rough/Boundaries": "walls, floor, top"})
     return Run("prm/wavy_channel.prm", settings, {"walls": walls})
 
 
@@ -64,23 +63,19 @@ def outputs(result):
 def balance(result):
     """Energy that is not accounted for, over the work of gravity; momentum over the greatest one."""
     columns = result.statistics()
-    force = ("contact walls", 1) if result.run.label["walls"] == "barrier" else ("reaction walls", -1)
     energy = np.max(np.abs(columns["energy residual"])) / np.max(columns["body force work"])
-    return energy, meshes.impulses(columns, (0, -G), surfaces=(force,))
+    return energy, meshes.impulses(columns, (0, -G), surfaces=((f"reaction {WALLS[result.run.label['walls']]}", -1),))
 
 
 def row(result):
     if result.status != 0:
         return {"outputs": 0, "least gap": math.nan, "energy": math.nan, "momentum": math.nan, "friction": math.nan,
-                "nearness": math.nan, "end y": math.nan, "J least": math.nan}
+                "end y": math.nan, "J least": math.nan}
     columns = result.statistics()
     tables = [table for _, table in outputs(result)]
     energy, momentum = balance(result)
-    is_barrier = result.run.label["walls"] == "barrier"
-    work = columns["contact work" if is_barrier else "condition work"]
     return {"outputs": len(tables), "least gap": min(gap(table) for table in tables), "energy": energy, "momentum": momentum,
-            "friction": work[-1] / columns["body force work"][-1],
-            "nearness": np.max(columns["contact nearness walls"]) if is_barrier else math.nan,
+            "friction": columns["condition work"][-1] / columns["body force work"][-1],
             "end y": np.mean(tables[-1]["y"]), "J least": min(np.min(table["volume_ratio"]) for table in tables)}
 
 
@@ -97,8 +92,6 @@ def figures(results):
                   report.Figure(f"{name}: least distance from a wall", values["least gap"], lower=-2e-4, unit="m"),
                   report.Figure(f"{name}: momentum less all impulses", values["momentum"], upper=1e-9),
                   report.Figure(f"{name}: energy less all work, over that of gravity", values["energy"], upper=0.01)]
-        if name == "barrier":
-            found.append(report.Figure("barrier: nearness, 1 at the wall", values["nearness"], upper=1))
     return found
 
 

@@ -1,8 +1,8 @@
-// A ball of radius .5 around the origin filled with tetrahedra, for prm/container.prm:
+// A ball of radius .5 + h around the origin filled with tetrahedra, for prm/container.prm: one layer of cells beyond the wall:
 // gmsh -3 -format msh41 container.geo -o container.msh [-setnumber h .03]
 SetFactory("OpenCASCADE");
 DefineConstant[h = .05];
-Sphere(1) = {0, 0, 0, .5};
+Sphere(1) = {0, 0, 0, .5 + h};
 MeshSize{ PointsOf{ Volume{1}; } } = h;
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;

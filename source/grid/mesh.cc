@@ -26,7 +26,7 @@ namespace Talus
   {
     inverse_edges.resize(n_cells());
     for (unsigned int c = 0; c < n_cells(); ++c)
-      inverse_edges[c] = dual<dim>(edges<dim>(position, nodes[c]));
+      inverse_edges[c] = dual(edges<dim>(position, nodes[c]));
   }
 
   template <int dim>
@@ -106,6 +106,32 @@ namespace Talus
           add(v);
       rings.begin.push_back(rings.node.size());
     }
+    fill_ring_lanes();
+  }
+
+  template <int dim>
+  void Mesh<dim>::fill_ring_lanes()
+  {
+    constexpr unsigned int width = 8;
+    auto                  &lanes = ring_lanes;
+    lanes.begin.assign(1, 0);
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      lanes.begin.push_back(lanes.begin[c] + (rings.size(c) + width - 1) / width * width);
+    lanes.node.resize(lanes.begin.back());
+    lanes.touches.assign(lanes.begin.back(), 0);
+    for (auto &coordinates : lanes.x)
+      coordinates.resize(lanes.begin.back());
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      for (std::size_t i = lanes.begin[c]; i < lanes.begin[c + 1]; ++i)
+      {
+        const std::size_t k       = i - lanes.begin[c];
+        const bool        is_real = k < rings.size(c);
+        const std::size_t from    = rings.begin[c] + (is_real ? k : 0);
+        lanes.node[i]             = rings.node[from];
+        lanes.touches[i]          = is_real ? rings.touches[from] : 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          lanes.x[d][i] = position[lanes.node[i]][d];
+      }
   }
 
   template <int dim>
@@ -122,6 +148,7 @@ namespace Talus
         if (!is_held[rings.node[k]])
           rings.touches[k] &= ~mask;
     }
+    fill_ring_lanes();
   }
 
   template <int dim>

@@ -23,6 +23,15 @@ namespace Talus
   template <int dim>
   unsigned int CellFinder<dim>::find(const double *x) const
   {
+    if (last < mesh.n_cells())
+    {
+      const Walk end = walk(mesh, last, x);
+      last           = end.cell;
+      // Within a cell, and not on a face, there is no other that holds it.
+      const auto B = mesh.barycentric(end.cell, x);
+      if (*std::min_element(B.begin(), B.end()) > 100 * barycentric_tolerance)
+        return end.cell;
+    }
     // Of several that hold it within round-off, the one it lies deepest in, and then the first of the lowest rank: the
     // same on all ranks.
     const auto comes_before = [&](const unsigned int a, const unsigned int b) {

@@ -22,7 +22,8 @@ namespace
   Kernel<dim> umls_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
     return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
-              umls<Weight>(mesh, c, x.data(), options, list);
+              const MeshPoint<dim> point{c, x};
+              umls<Weight>(mesh, 1, &point, options, &list);
             }};
   }
 
@@ -31,7 +32,8 @@ namespace
   {
     return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
                                                                   Stencil<dim> &list) {
-              c1_umls<Weight>(mesh, feet[c], c, x.data(), options, list);
+              const MeshPoint<dim> point{c, x};
+              c1_umls<Weight>(mesh, feet.data(), 1, &point, options, &list);
             }};
   }
 
@@ -62,7 +64,7 @@ namespace
             c1_kernel<QuadraticWeight>("C1, quadratic, local", mesh, {local, true})};
   }
 
-  /** A stencil by node; the filling at its end must count for nothing. */
+  /** A stencil by node. */
   template <int dim>
   struct Values
   {
@@ -71,7 +73,7 @@ namespace
     {
       static Stencil<dim> list;
       kernel.evaluate(cell, x, list);
-      for (unsigned int k = 0; k < (list.size + 7) / 8 * 8; ++k)
+      for (unsigned int k = 0; k < list.size; ++k)
       {
         weight[list.place[k]] += list.weight[k];
         for (unsigned int d = 0; d < dim; ++d)

@@ -34,7 +34,8 @@ namespace
   {
     const auto    feet = foot_coordinates(mesh);
     Stencil<dim> list;
-    c1_umls<CubicWeight>(mesh, feet[cell], cell, x.data(), {}, list);
+    const MeshPoint<dim> point{cell, x};
+    c1_umls<CubicWeight>(mesh, feet.data(), 1, &point, {}, &list);
     std::map<Coordinates<dim>, double> weights;
     for (unsigned int k = 0; k < list.size; ++k)
       weights[mesh.position[list.place[k]]] = list.weight[k];

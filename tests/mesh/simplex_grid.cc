@@ -216,7 +216,7 @@ void shares_on_a_mesh()
 {
   const double length = dim == 2 ? 0.35 : 0.3; // a corner of the mesh, on one side of the plate's hole
   OnMesh<dim>  run(gmsh_grid<dim>() + section("Kernel", set("Type", "P1")) +
-                  box_body<dim>(0.01, length, set("Particles per cell and direction", dim == 2 ? "16" : "8")));
+                  box_body<dim>(0.01, length, set("Particles per cell and direction", dim == 2 ? "16" : "12")));
   std::vector<unsigned int> of_cell(run.simplices().mesh().n_cells(), 0);
   unsigned int              most = 0;
   for (unsigned int p = 0; p < run.particles.size(); ++p)

@@ -63,6 +63,23 @@ namespace
       n_wrong += listed != ring || listed.size() != mesh.rings.size(c);
     }
     check_true(name + ": rings", n_wrong == 0);
+    // For registers: the same lists, and nodes that touch nothing up to the next multiple of 8.
+    n_wrong = mesh.ring_lanes.begin[0] != 0;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+    {
+      const std::size_t begin = mesh.ring_lanes.begin[c], end = mesh.ring_lanes.begin[c + 1];
+      n_wrong += begin % 8 != 0 || end < begin + mesh.rings.size(c) || end >= begin + mesh.rings.size(c) + 8;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const std::size_t from = mesh.rings.begin[c] + i - begin;
+        const bool        is_real = i - begin < mesh.rings.size(c);
+        n_wrong += is_real && mesh.ring_lanes.node[i] != mesh.rings.node[from];
+        n_wrong += mesh.ring_lanes.touches[i] != (is_real ? mesh.rings.touches[from] : 0);
+        for (unsigned int d = 0; d < dim; ++d)
+          n_wrong += mesh.ring_lanes.x[d][i] != mesh.position[mesh.ring_lanes.node[i]][d];
+      }
+    }
+    check_true(name + ": rings for registers", n_wrong == 0);
 
     double error = 0;
     for (unsigned int v = 0; v < mesh.n_nodes(); ++v)

@@ -20,6 +20,19 @@ namespace Talus
   };
 
   /**
+   * The same for loops over registers: lists are filled up to whole ones of 8 by their first node, which touches nothing
+   * there, and positions lie side by side for each axis.
+   */
+  template <int dim>
+  struct RingLanes
+  {
+    std::vector<std::size_t>             begin; // of a cell's list, in nodes; multiples of 8
+    std::vector<unsigned int>            node;
+    std::vector<unsigned char>           touches;
+    std::array<std::vector<double>, dim> x; // [length]
+  };
+
+  /**
    * A simplex mesh (segments, triangles, tetrahedra) as plain tables by local cell and local node, all that the hot
    * loops see of it. Barycentric coordinates of x in a cell with vertices x_0, ..., x_dim are
    * @f[ B_k = \sum_e (E^{-1})_{k-1,e} (x - x_0)_e , \quad B_0 = 1 - \sum_{k>0} B_k , \quad
@@ -66,6 +79,7 @@ namespace Talus
     std::vector<unsigned int> owner;      // rank
     std::vector<unsigned int> number;     // of the cell at its owner
     Rings                     rings;
+    RingLanes<dim>            ring_lanes;
     std::vector<char>         held; // whether a cell has vertices that are held; empty: none has
 
     double longest_edge = 0; // [length]
@@ -106,6 +120,7 @@ namespace Talus
     void find_inverse_edges();
     void find_neighbours();
     void find_rings();
+    void fill_ring_lanes();
     void find_sizes();
 
     std::vector<std::array<Vector, dim>> inverse_edges; // E^-1 [1/length]

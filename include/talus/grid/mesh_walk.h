@@ -52,7 +52,10 @@ namespace Talus
   public:
     explicit CellFinder(const Mesh<dim> &mesh);
 
-    /** The cell that holds x, or Mesh::missing when none of those here does. */
+    /**
+     * The cell that holds x, or Mesh::missing when none of those here does; of several, on their faces, the same
+     * whatever was asked before. Fast for points near the last one.
+     */
     unsigned int find(const double *x) const;
 
     /** The same, if x has come not far from `cell`. */
@@ -63,7 +66,8 @@ namespace Talus
     }
 
   private:
-    const Mesh<dim> &mesh;
-    Bins<dim>        bins;
+    const Mesh<dim>     &mesh;
+    Bins<dim>            bins;
+    mutable unsigned int last = 0; // where the search begins
   };
 } // namespace Talus

@@ -9,8 +9,8 @@ namespace Talus
   template <std::size_t dim>
   using Edges = std::array<std::array<double, dim>, dim>;
 
-  template <std::size_t dim>
-  double determinant(const Edges<dim> &E)
+  template <class Number, std::size_t dim>
+  Number determinant(const std::array<std::array<Number, dim>, dim> &E)
   {
     if constexpr (dim == 1)
       return E[0][0];
@@ -22,11 +22,11 @@ namespace Talus
   }
 
   /** The rows g_k with g_k . edge_l = delta_kl: gradients of the barycentric coordinates 1, ..., dim. */
-  template <std::size_t dim>
-  Edges<dim> dual(const Edges<dim> &E)
+  template <class Number, std::size_t dim>
+  std::array<std::array<Number, dim>, dim> dual(const std::array<std::array<Number, dim>, dim> &E)
   {
-    const double scale = 1 / determinant(E);
-    Edges<dim>   g;
+    const Number                             scale = 1. / determinant(E);
+    std::array<std::array<Number, dim>, dim> g;
     if constexpr (dim == 1)
       g[0][0] = scale;
     else if constexpr (dim == 2)

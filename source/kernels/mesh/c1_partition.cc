@@ -32,13 +32,13 @@ namespace Talus
         Gram<3> in_face;
         for (unsigned int j = 0; j < 3; ++j)
         {
-          feet.lambda[j][a] = lambda(G, a, outer(j));
+          feet.lambda[a][j] = lambda(G, a, outer(j));
           for (unsigned int k = 0; k < 3; ++k)
             in_face[j][k] = G[outer(j)][outer(k)] - G[outer(j)][a] * G[a][outer(k)] / G[a][a];
         }
         for (unsigned int b = 0; b < 3; ++b)
           for (unsigned int j = 0; j < 3; ++j)
-            feet.face_lambda[b][j][a] = lambda(in_face, b, j);
+            feet.face_lambda[a][b][j] = lambda(in_face, b, j);
       }
     }
   } // namespace

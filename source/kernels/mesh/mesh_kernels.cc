@@ -27,15 +27,19 @@ namespace Talus
       void evaluate(const WorkingSet<dim> &particles, const unsigned int begin, const unsigned int end,
                     Stencil<dim> *stencils) const override
       {
-        const auto x = particles.template components<dim>(particles.position);
-        for (unsigned int p = begin; p < end; ++p)
+        const auto     x = particles.template components<dim>(particles.position);
+        MeshPoint<dim> points[mesh_width];
+        for (unsigned int first = begin; first < end; first += mesh_width)
         {
-          double x_p[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            x_p[d] = x[d][p];
-          Stencil<dim> &stencil = stencils[p - begin];
-          stencil.is_at_slip_wall.fill(false);
-          find(particles.place[p], x_p, stencil);
+          const unsigned int n = std::min(mesh_width, end - first);
+          for (unsigned int l = 0; l < n; ++l)
+          {
+            points[l].cell = particles.place[first + l];
+            for (unsigned int d = 0; d < dim; ++d)
+              points[l].x[d] = x[d][first + l];
+            stencils[first - begin + l].is_at_slip_wall.fill(false);
+          }
+          find(n, points, stencils + (first - begin));
         }
       }
 
@@ -43,7 +47,8 @@ namespace Talus
       /** Makes what hangs on the mesh, which may still be empty. */
       virtual void prepare() {}
 
-      virtual void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const = 0;
+      /** The lists of up to mesh_width points. */
+      virtual void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const = 0;
 
       const Mesh<dim> *mesh = nullptr;
     };
@@ -55,9 +60,10 @@ namespace Talus
       using MeshKernel<dim>::MeshKernel;
 
     private:
-      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
+      void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const override
       {
-        p1(*this->mesh, cell, x, stencil);
+        for (unsigned int l = 0; l < n; ++l)
+          p1(*this->mesh, points[l].cell, points[l].x.data(), lists[l]);
       }
     };
 
@@ -86,12 +92,12 @@ namespace Talus
       }
 
     protected:
-      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
+      void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const override
       {
         if (is_cubic)
-          umls<CubicWeight>(*this->mesh, cell, x, options, stencil);
+          umls<CubicWeight>(*this->mesh, n, points, options, lists);
         else
-          umls<QuadraticWeight>(*this->mesh, cell, x, options, stencil);
+          umls<QuadraticWeight>(*this->mesh, n, points, options, lists);
       }
 
       UmlsOptions options;
@@ -111,12 +117,12 @@ namespace Talus
     private:
       void prepare() override { feet = foot_coordinates(*this->mesh); }
 
-      void find(const unsigned int cell, const double *x, Stencil<dim> &stencil) const override
+      void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const override
       {
         if (this->is_cubic)
-          c1_umls<CubicWeight>(*this->mesh, feet[cell], cell, x, this->options, stencil);
+          c1_umls<CubicWeight>(*this->mesh, feet.data(), n, points, this->options, lists);
         else
-          c1_umls<QuadraticWeight>(*this->mesh, feet[cell], cell, x, this->options, stencil);
+          c1_umls<QuadraticWeight>(*this->mesh, feet.data(), n, points, this->options, lists);
       }
 
       std::vector<FootCoordinates<dim>> feet; // of each cell

@@ -4,6 +4,7 @@
 #include <talus/grid/mesh.h>
 
 #include <array>
+#include <vector>
 
 namespace Talus
 {
@@ -13,28 +14,30 @@ namespace Talus
    * @f$ \lambda_j^a = -\nabla B_j\cdot\nabla B_a/|\nabla B_a|^2 @f$; likewise for the edges of the faces of a
    * tetrahedron.
    */
+  template <int dim, class Number = double>
+  struct Feet;
+
+  template <class Number>
+  struct Feet<1, Number>
+  {
+  };
+
+  template <class Number>
+  struct Feet<2, Number>
+  {
+    Number lambda[3][3]; // [a][j]
+  };
+
+  /** Vertex j of face a is vertex (a + 1 + j) % 4 of the cell. */
+  template <class Number>
+  struct Feet<3, Number>
+  {
+    Number lambda[4][3];         // [a][j]
+    Number face_lambda[4][3][3]; // [a][b][j], of the edge opposite to vertex b of face a
+  };
+
   template <int dim>
-  struct FootCoordinates;
-
-  template <>
-  struct FootCoordinates<1>
-  {
-  };
-
-  template <>
-  struct FootCoordinates<2>
-  {
-    double lambda[3][3]; // [a][j]
-  };
-
-  /** Vertex j of face a is vertex (a + 1 + j) % 4 of the cell. The last index is that of the face: four faces a
-   * register. */
-  template <>
-  struct FootCoordinates<3>
-  {
-    double lambda[3][4];         // [j][a]
-    double face_lambda[3][3][4]; // [b][j][a], of the edge opposite to vertex b of face a
-  };
+  using FootCoordinates = Feet<dim>;
 
   /** Those of all cells of a mesh. */
   template <int dim>
@@ -165,51 +168,55 @@ namespace Talus
    * so that near a face value and slope are those of the face alone, extended along its normal.
    * Test: tests/mesh/partition.cc.
    */
-  inline C1Shares<2> c1_shares(const FootCoordinates<1> &, const std::array<double, 2> &B)
+  template <class Number>
+  [[gnu::always_inline]] inline C1Shares<2, Number> c1_shares(const Feet<1, Number> &, const std::array<Number, 2> &B)
   {
-    double f, slope;
-    internal::ramp(B[0], f, slope);
-    return {{f, 1 - f}, {{slope, 0}, {-slope, 0}}};
+    Number f, slope;
+    internal::ramp<Number>(B[0], f, slope);
+    return {{f, 1. - f}, {{slope, 0.}, {-slope, 0.}}};
   }
 
-  inline C1Shares<3> c1_shares(const FootCoordinates<2> &feet, const std::array<double, 3> &B)
+  template <class Number>
+  [[gnu::always_inline]] inline C1Shares<3, Number> c1_shares(const Feet<2, Number> &feet,
+                                                                  const std::array<Number, 3> &B)
   {
-    return internal::triangle_shares<double>(feet.lambda, {B[0], B[1], B[2]});
+    return internal::triangle_shares<Number>(feet.lambda, {B[0], B[1], B[2]});
   }
 
-  inline C1Shares<4> c1_shares(const FootCoordinates<3> &feet, const std::array<double, 4> &B)
+  template <class Number>
+  [[gnu::always_inline]] inline C1Shares<4, Number> c1_shares(const Feet<3, Number> &feet,
+                                                                  const std::array<Number, 4> &B)
   {
-    using Faces           = Simd<4>; // one in each lane
-    const double around[] = {B[0], B[1], B[2], B[3], B[0], B[1], B[2]};
-    Faces        foot[3], edge_lambda[3][3];
-    for (int j = 0; j < 3; ++j)
+    Number W[4], by[4][4], values[4][4];
+    internal::blend<4, Number>({B[0], B[1], B[2], B[3]}, W, by);
+    C1Shares<4, Number> shares;
+    for (int i = 0; i < 4; ++i)
     {
-      foot[j] = Faces::load(around + 1 + j) + Faces::load(feet.lambda[j]) * Faces::load(around);
-      for (int b = 0; b < 3; ++b)
-        edge_lambda[b][j] = Faces::load(feet.face_lambda[b][j]);
+      shares.eta[i] = 0.;
+      for (Number &slope : shares.slope[i])
+        slope = 0.;
     }
-    const auto on_faces = internal::triangle_shares<Faces>(edge_lambda, foot);
-
-    double W[4], by[4][4], values[4][4];
-    internal::blend<4, double>({B[0], B[1], B[2], B[3]}, W, by);
-    C1Shares<4> shares{};
     for (int a = 0; a < 4; ++a)
     {
-      values[a][a] = 0;
+      Number foot[3];
+      for (int j = 0; j < 3; ++j)
+        foot[j] = B[(a + 1 + j) % 4] + feet.lambda[a][j] * B[a];
+      const auto on_face = internal::triangle_shares<Number>(feet.face_lambda[a], foot);
+      values[a][a]       = 0.;
       for (int i = 0; i < 3; ++i)
       {
         const int outer  = (a + 1 + i) % 4;
-        values[a][outer] = on_faces.eta[i][a];
+        values[a][outer] = on_face.eta[i];
         shares.eta[outer] += W[a] * values[a][outer];
         for (int j = 0; j < 3; ++j)
         {
-          const double slope = W[a] * on_faces.slope[i][j][a];
+          const Number slope = W[a] * on_face.slope[i][j];
           shares.slope[outer][(a + 1 + j) % 4] += slope;
-          shares.slope[outer][a] += slope * feet.lambda[j][a];
+          shares.slope[outer][a] += slope * feet.lambda[a][j];
         }
       }
     }
-    internal::add_slopes_of_weights<4, double>(by, values, shares);
+    internal::add_slopes_of_weights<4, Number>(by, values, shares);
     return shares;
   }
 } // namespace Talus

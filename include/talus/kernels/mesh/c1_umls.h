@@ -17,64 +17,83 @@ namespace Talus
    * @f[ \nabla\phi_v = g_v + (a\cdot p_v)\nabla w_v - w_v Q^T p_v , \quad
    *     Q = M^{-1} \sum_u (a\cdot p_u)\,p_u \nabla w_u^T . @f]
    * As these are true gradients, the integral of grad phi_v is its boundary term, and refinement converges on meshes
-   * that are not uniform. Theory: doc/umls.md. Test: tests/mesh/kernels.cc.
+   * that are not uniform. At up to mesh_width points; `feet` of all cells. Theory: doc/umls.md. Test: tests/mesh/kernels.cc.
    */
   template <class Weight, int dim>
-  void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
-               const UmlsOptions &options, Stencil<dim> &list);
+  void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
+               const MeshPoint<dim> *points, const UmlsOptions &options, Stencil<dim> *lists);
 
   namespace internal
   {
-    /** What the weights of a particle share: gamma and its gradient by the vertices that a node touches, s, grad s. */
+    /** What the weights of mesh_width particles share: gamma and its gradient by the sets of vertices, 1/s, grad s. */
     template <int dim>
-    struct C1Point
+    struct C1Points
     {
-      using Gradient = std::array<double, dim>;
+      using Lanes = Simd<mesh_width>;
 
-      C1Point(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
-              const UmlsOptions &options)
+      [[gnu::always_inline]] C1Points(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
+                                      const MeshPoint<dim> *points, const UmlsOptions &options)
       {
-        const auto                  shares = c1_shares(feet, mesh.barycentric(cell, x));
-        const auto                  grad_B = mesh.gradients(cell);
-        std::array<double, dim + 1> eta, grad_eta[dim];
-        for (unsigned int u = 0; u <= dim; ++u)
+        Feet<dim, Lanes>           feet_of;
+        std::array<Lanes, dim + 1> B, eta, size, grad_B[dim];
+        Lanes                      is_held = 0.;
+        for (unsigned int l = 0; l < mesh_width; ++l)
         {
-          eta[u] = shares.eta[u];
-          for (unsigned int d = 0; d < dim; ++d)
+          const auto        &point    = points[l < n ? l : 0];
+          const unsigned int cell     = point.cell;
+          const auto         share    = mesh.barycentric(cell, point.x.data());
+          const auto         gradient = mesh.gradients(cell);
+          for (unsigned int u = 0; u <= dim; ++u)
           {
-            grad_eta[d][u] = 0;
-            for (unsigned int c = 0; c <= dim; ++c)
-              grad_eta[d][u] += shares.slope[u][c] * grad_B[c][d];
+            B[u].set(l, share[u]);
+            size[u].set(l, mesh.size[mesh.nodes[cell][u]]);
+            for (unsigned int d = 0; d < dim; ++d)
+              grad_B[d][u].set(l, gradient[u][d]);
           }
+          if constexpr (dim > 1)
+          {
+            const auto from = reinterpret_cast<const double *>(feet + cell);
+            const auto to   = reinterpret_cast<Lanes *>(&feet_of);
+            for (unsigned int i = 0; i < sizeof(feet[cell]) / sizeof(double); ++i)
+              to[i].set(l, from[i]);
+          }
+          is_held.set(l, mesh.has_held(cell) ? 1. : 0.);
         }
-        eta   = at_least_shares(mesh, cell, eta);
-        gamma = subset_sums<dim>(eta);
-        s     = support_length(mesh, cell, eta, options);
+        const auto shares = c1_shares(feet_of, B);
+        for (unsigned int u = 0; u <= dim; ++u)
+          eta[u] = select(is_held > 0., max(shares.eta[u], Lanes(mesh.least_share)), shares.eta[u]);
+        gamma.set(gamma_of_sets<dim, Lanes>(eta, options));
+        const bool is_local = options.support == UmlsOptions::Support::local;
+        Lanes      s        = is_local ? 0. : mesh.longest_edge;
+        for (unsigned int u = 0; is_local && u <= dim; ++u)
+          s += eta[u] * size[u];
+        (1. / s).store(inverse_s);
         for (unsigned int d = 0; d < dim; ++d)
         {
-          grad_gamma[d]        = subset_sums<dim>(grad_eta[d]);
-          grad_gamma[d].back() = 0;
-          grad_s[d]            = 0;
-          if (options.support == UmlsOptions::Support::local)
-            for (unsigned int u = 0; u <= dim; ++u)
-              grad_s[d] += grad_eta[d][u] * mesh.size[mesh.nodes[cell][u]];
-        }
-        if (!options.has_gamma)
-          for (unsigned int set = 1; set < gamma.size(); ++set)
+          std::array<Lanes, dim + 1> grad_eta;
+          Lanes                      grad = 0.;
+          for (unsigned int u = 0; u <= dim; ++u)
           {
-            gamma[set] = 1;
-            for (auto &component : grad_gamma)
-              component[set] = 0;
+            grad_eta[u] = 0.;
+            for (unsigned int c = 0; c <= dim; ++c)
+              grad_eta[u] += shares.slope[u][c] * grad_B[d][c];
+            grad += grad_eta[u] * size[u];
           }
+          (is_local ? grad : Lanes(0.)).store(grad_s[d]);
+          auto sums   = subset_sums<dim, Lanes>(grad_eta);
+          sums.back() = 0.;
+          if (!options.has_gamma)
+            sums.fill(0.);
+          grad_gamma[d].set(sums);
+        }
       }
 
-      std::array<double, 2 << dim> gamma, grad_gamma[dim];
-      double                       s;
-      Gradient                     grad_s;
+      SetTable<dim>      gamma, grad_gamma[dim];
+      alignas(64) double inverse_s[mesh_width], grad_s[dim][mesh_width];
     };
 
     template <int dim, class Lanes>
-    Lanes dot(const double *row, const Lanes (&d)[dim])
+    [[gnu::always_inline]] inline Lanes dot(const Lanes *row, const Lanes (&d)[dim])
     {
       Lanes sum = row[0];
       for (unsigned int e = 0; e < dim; ++e)
@@ -84,82 +103,96 @@ namespace Talus
   } // namespace internal
 
   template <class Weight, int dim>
-  void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell, const double *x,
-               const UmlsOptions &options, Stencil<dim> &list)
+  [[gnu::flatten]] void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
+                                const MeshPoint<dim> *points, const UmlsOptions &options, Stencil<dim> *lists)
   {
-    using Lanes               = typename Stencil<dim>::Lanes;
-    constexpr unsigned int w8 = Stencil<dim>::width;
-    using Sums                = MomentSums<dim, w8>;
-
-    const internal::C1Point<dim> point(mesh, feet, cell, x, options);
-    const double                 inverse_s = 1 / point.s;
-    const auto                   to =
-      list_ring(mesh, cell, x, list, [&](const auto &to, const unsigned int k, const unsigned int touches) {
-        to.weight[k] = point.gamma[touches];
-        for (unsigned int d = 0; d < dim; ++d)
-          to.gradient[d][k] = point.grad_gamma[d][touches];
-      });
-
-    Sums  M;
-    Lanes d[dim];
-    for (unsigned int k = 0; k < to.padded_size; k += w8)
+    using Lanes = Simd<mesh_width>;
+    const internal::C1Points<dim>            at(mesh, feet, n, points, options);
+    SumsOfParticles<MomentSums<dim>::n_sums> moments;
+    typename Stencil<dim>::Arrays            to[mesh_width];
+    const auto scaled_offset = [&](const unsigned int l, const unsigned int k, Lanes(&d)[dim]) {
+      for (unsigned int e = 0; e < dim; ++e)
+        d[e] = at.inverse_s[l] * Lanes::load(to[l].offset[e] + k);
+    };
+    // Until the last loop the lists hold w and grad w.
+    for (unsigned int l = 0; l < n; ++l)
     {
-      Lanes square = 0.;
-      for (unsigned int e = 0; e < dim; ++e)
-      {
-        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
-        square += d[e] * d[e];
-      }
-      const Lanes q = sqrt(square), b = Weight::value(q), gamma = Lanes::load(to.weight + k);
-      const Lanes weight = b * gamma, slope = inverse_s * gamma * Weight::slope_over_q(q);
-      weight.store(to.weight + k);
-      for (unsigned int e = 0; e < dim; ++e)
-        (b * Lanes::load(to.gradient[e] + k) - slope * (d[e] + square * point.grad_s[e])).store(to.gradient[e] + k);
-      M.add(weight, d);
+      const Lanes     scale = at.inverse_s[l];
+      MomentSums<dim> M;
+      to[l] = list_ring(mesh, points[l].cell, points[l].x.data(), lists[l],
+                        [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
+                          Lanes d[dim], square = 0.;
+                          for (unsigned int e = 0; e < dim; ++e)
+                          {
+                            d[e] = scale * offset[e];
+                            square += d[e] * d[e];
+                          }
+                          const Lanes q = sqrt(square), b = Weight::value(q), gamma = at.gamma(touches, l);
+                          const Lanes weight = b * gamma, slope = scale * gamma * Weight::slope_over_q(q);
+                          weight.store(list.weight + k);
+                          for (unsigned int e = 0; e < dim; ++e)
+                            (b * at.grad_gamma[e](touches, l) - slope * (d[e] + square * at.grad_s[e][l]))
+                              .store(list.gradient[e] + k);
+                          M.add(weight, d);
+                        });
+      moments.set(l, M.rows);
     }
-    const auto inverse = M.inverse();
+    moments.fill(n);
+    const InverseMoments<dim> inverse(moments);
 
-    // Q, before M^-1; until here the lists hold w and grad w.
-    Lanes sums[dim + 1][dim];
-    for (auto &row : sums)
-      for (auto &entry : row)
-        entry = 0.;
-    for (unsigned int k = 0; k < to.padded_size; k += w8)
+    // Q, before M^-1.
+    SumsOfParticles<(dim + 1) * dim> Q;
+    for (unsigned int l = 0; l < n; ++l)
     {
-      for (unsigned int e = 0; e < dim; ++e)
-        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
-      const Lanes correction = internal::dot<dim>(inverse[0].data(), d);
-      for (unsigned int e = 0; e < dim; ++e)
+      Lanes rows[(dim + 1) * dim], a[dim + 1], d[dim];
+      for (auto &row : rows)
+        row = 0.;
+      for (unsigned int i = 0; i <= dim; ++i)
+        a[i] = inverse(0, i, l);
+      for (unsigned int k = 0; k < lists[l].size; k += mesh_width)
       {
-        const Lanes term = correction * Lanes::load(to.gradient[e] + k);
-        sums[0][e] += term;
-        for (unsigned int i = 0; i < dim; ++i)
-          sums[i + 1][e] += d[i] * term;
+        scaled_offset(l, k, d);
+        const Lanes correction = internal::dot<dim>(a, d);
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          const Lanes term = correction * Lanes::load(to[l].gradient[e] + k);
+          rows[e] += term;
+          for (unsigned int i = 0; i < dim; ++i)
+            rows[(i + 1) * dim + e] += d[i] * term;
+        }
       }
+      Q.set(l, rows);
     }
+    Q.fill(n);
     // The row of p in g_v - w_v Q^T p_v, for each component.
-    double row[dim][dim + 1];
+    alignas(64) double row[dim][dim + 1][mesh_width];
     for (unsigned int e = 0; e < dim; ++e)
-    {
-      double column[dim + 1];
-      for (unsigned int i = 0; i <= dim; ++i)
-        column[i] = Sums::sum(sums[i][e]);
       for (unsigned int i = 0; i <= dim; ++i)
       {
-        row[e][i] = inverse_s * inverse[e + 1][i];
+        Lanes sum = Lanes::load(at.inverse_s) * inverse.lanes(e + 1, i);
         for (unsigned int j = 0; j <= dim; ++j)
-          row[e][i] -= inverse[i][j] * column[j];
+          sum -= inverse.lanes(i, j) * Q[j * dim + e];
+        sum.store(row[e][i]);
       }
-    }
-    for (unsigned int k = 0; k < to.padded_size; k += w8)
+
+    for (unsigned int l = 0; l < n; ++l)
     {
-      for (unsigned int e = 0; e < dim; ++e)
-        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
-      const Lanes weight = Lanes::load(to.weight + k), correction = internal::dot<dim>(inverse[0].data(), d);
-      for (unsigned int e = 0; e < dim; ++e)
-        (weight * internal::dot<dim>(row[e], d) + correction * Lanes::load(to.gradient[e] + k))
-          .store(to.gradient[e] + k);
-      (weight * correction).store(to.weight + k);
+      Lanes a[dim + 1], of_gradient[dim][dim + 1], d[dim];
+      for (unsigned int i = 0; i <= dim; ++i)
+      {
+        a[i] = inverse(0, i, l);
+        for (unsigned int e = 0; e < dim; ++e)
+          of_gradient[e][i] = row[e][i][l];
+      }
+      for (unsigned int k = 0; k < lists[l].size; k += mesh_width)
+      {
+        scaled_offset(l, k, d);
+        const Lanes weight = Lanes::load(to[l].weight + k), correction = internal::dot<dim>(a, d);
+        for (unsigned int e = 0; e < dim; ++e)
+          (weight * internal::dot<dim>(of_gradient[e], d) + correction * Lanes::load(to[l].gradient[e] + k))
+            .store(to[l].gradient[e] + k);
+        (weight * correction).store(to[l].weight + k);
+      }
     }
   }
 } // namespace Talus

@@ -11,16 +11,15 @@ namespace Talus
   {
     const auto B = mesh.barycentric(cell, x);
     const auto g = mesh.gradients(cell);
-    const auto to = list.resize(dim + 1);
-    for (unsigned int k = 0; k < to.padded_size; ++k)
+    list.resize(dim + 1);
+    for (unsigned int k = 0; k <= dim; ++k)
     {
-      const bool is_real = k <= dim;
-      list.place[k]       = mesh.nodes[cell][is_real ? k : 0];
-      list.weight[k]     = is_real ? B[k] : 0.;
+      list.place[k]  = mesh.nodes[cell][k];
+      list.weight[k] = B[k];
       for (unsigned int d = 0; d < dim; ++d)
       {
         list.offset[d][k]   = mesh.position[list.place[k]][d] - x[d];
-        list.gradient[d][k] = is_real ? g[k][d] : 0.;
+        list.gradient[d][k] = g[k][d];
       }
     }
   }
