@@ -95,7 +95,7 @@ def figures(results):
 
 
 def draw(results, path):
-    times = (0, 0.005, 0.01, 0.02, 0.2)
+    times = (0, 0.005, 0.01, 0.02, 0.1)
     figure, axes = plt.subplots(len(results), len(times), figsize=(11, 2.4 * len(results)), layout="constrained", squeeze=False)
     for line, result in zip(axes, results):
         if result.status != 0:

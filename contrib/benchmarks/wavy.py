@@ -32,19 +32,20 @@ def make_points():
                   np.column_stack((1 + r * np.cos(phi), r * np.sin(phi))), math.pi * RADIUS**2 / N)
 
 
-def run(walls):
-    settings = {"Bodies/Names": "random", "Bodies/random/Shape": "points", "Bodies/random/File": POINTS,
-                "Output/Grid": "false"}
+def run(walls, places):
+    settings = {"Output/Grid": "false"}
+    if places == "at random":
+        settings.update({"Bodies/Names": "random", "Bodies/random/Shape": "points", "Bodies/random/File": POINTS})
     if walls == "friction":
         settings.update({"Conditions/Names": "rough", "Conditions/rough/Type": "friction",
                          "Conditions/rough/Friction coefficient": 1, "Conditions/rough/Boundaries": "walls, floor, top"})
-    return Run("prm/wavy_channel.prm", settings, {"walls": walls})
+    return Run("prm/wavy_channel.prm", settings, {"walls": walls, "particles": places})
 
 
 def runs():
     meshes.make("wavy", 2)
     make_points()
-    return [run(walls) for walls in WALLS]
+    return [run("no-slip", "jittered"), run("no-slip", "at random"), run("friction", "jittered")]
 
 
 def gap(particles):
@@ -86,7 +87,7 @@ def table(results):
 def figures(results):
     found = []
     for result in results:
-        values, name = row(result), result.run.label["walls"]
+        values, name = row(result), ", ".join(result.run.label.values())
         found += [report.Figure(f"{name}: outputs to 6.5 s, all particles inside", values["outputs"], 66, 66),
                   # The mesh's chords cut the walls' bulges by h^2 k^2 a/8.
                   report.Figure(f"{name}: least distance from a wall", values["least gap"], lower=-2e-4, unit="m"),
@@ -114,7 +115,7 @@ def draw(results, path):
                                   cmap="coolwarm", linewidths=0)
             centre = np.mean(particles["x"]), np.mean(particles["y"])
             axis.set(xlim=(centre[0] - 1.3, centre[0] + 1.3), ylim=(centre[1] - 2, centre[1] + 2))
-            axis.set_title(f"{result.run.label['walls']}, t = {time} s", fontsize=9)
+            axis.set_title(f"{', '.join(result.run.label.values())}, t = {time} s", fontsize=7)
         line[0].set(xlim=(-1, 3), ylim=(BOTTOM, TOP))
         figure.colorbar(drawn, ax=line, shrink=0.7, label="pressure [kPa]", extend="both")
     figure.savefig(path, dpi=120)
