@@ -29,23 +29,27 @@ def runs():
 
 
 def drifts(result):
-    """Largest changes of angular momentum, the affine fields' share included, over its start, and of momentum over M v."""
+    """
+    Largest changes of angular momentum, the affine fields' share included, over its start; of momentum over M v, and of it
+    with what nodes of almost no mass have lost.
+    """
     if result.status != 0:
-        return math.nan, math.nan
+        return math.nan, math.nan, math.nan
     columns = result.statistics()
-    L = columns["total angular momentum z"]
-    momentum = max(np.max(np.abs(columns[name] - columns[name][0])) for name in ("momentum x", "momentum y"))
-    return np.max(np.abs(L - L[0])) / abs(L[0]), momentum / (columns["mass"][0] * 0.1)
+    L, change = columns["total angular momentum z"], lambda x: np.max(np.abs(x - x[0])) / (columns["mass"][0] * 0.1)
+    return (np.max(np.abs(L - L[0])) / abs(L[0]), max(change(columns[f"momentum {axis}"]) for axis in "xy"),
+            max(change(columns[f"momentum {axis}"] + columns[f"lost momentum {axis}"]) for axis in "xy"))
 
 
 def table(results):
-    return [{**result.run.label, "angular momentum": drifts(result)[0], "momentum": drifts(result)[1]} for result in results]
+    return [{**result.run.label, **dict(zip(("angular momentum", "momentum", "momentum and loss"), drifts(result)))}
+            for result in results]
 
 
 def figures(results):
     return [figure for result in results for figure in (
         report.Figure(f"{result.run.label['kernel']}: change of angular momentum", drifts(result)[0], upper=1e-12),
-        report.Figure(f"{result.run.label['kernel']}: change of momentum", drifts(result)[1], upper=1e-14))]
+        report.Figure(f"{result.run.label['kernel']}: change of momentum and loss", drifts(result)[2], upper=1e-14))]
 
 
 def draw(results, path):

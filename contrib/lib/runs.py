@@ -66,9 +66,13 @@ class Result:
 
     def statistics(self):
         """The columns of statistics.csv by name, without units."""
-        with open(self.directory / "statistics.csv") as file:
+        return {name.replace("_", " "): values for name, values in self.columns("statistics.csv").items()}
+
+    def columns(self, name):
+        """The columns of a table in the run's directory by name, without units."""
+        with open(self.directory / name) as file:
             lines = (line for line in file if not line.startswith("#"))
-            names = [name.split(" [")[0].replace("_", " ") for name in next(lines).strip().split(",")]
+            names = [name.split(" [")[0] for name in next(lines).strip().split(",")]
             values = np.loadtxt(lines, delimiter=",", ndmin=2)
         return {name: values[:, column] for column, name in enumerate(names)}
 

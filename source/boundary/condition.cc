@@ -1,9 +1,9 @@
 #include <talus/boundary/condition.h>
 #include <talus/core/exceptions.h>
+#include <talus/core/half_space.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <regex>
+#include <utility>
 
 namespace Talus
 {
@@ -58,21 +58,12 @@ namespace Talus
   template <int dim>
   void Condition<dim>::read_half_space(const std::string &text)
   {
-    const std::regex pattern(std::string("\\s*([") + (dim == 2 ? "xy" : "xyz") + "])\\s*(<=|>=)\\s*(\\S+)\\s*");
-    std::smatch      parts;
-    char            *end = nullptr;
-    std::string      number;
-    double           position = 0;
-    if (std::regex_match(text, parts, pattern))
-    {
-      number   = parts[3];
-      position = std::strtod(number.c_str(), &end);
-    }
-    if (number.empty() || *end != '\0' || !std::isfinite(position))
+    const auto half_space = Talus::read_half_space(text, dim);
+    if (!half_space)
       throw EntryError(get_section_name(), "Half spaces",
                        "cannot understand '" + text + "'. Write an axis, <= or >=, and a number: x <= 0.1");
-    faces.push_back(2 * (parts[1].str()[0] - 'x') + (parts[2] == ">="));
-    positions.push_back(position);
+    faces.push_back(2 * half_space->axis + (half_space->is_upper ? 1 : 0));
+    positions.push_back(half_space->position);
   }
 
   template <int dim>
@@ -136,7 +127,7 @@ namespace Talus
   template <int dim>
   void Condition<dim>::attach_parts(const Grid<dim> &grid)
   {
-    const bool is_box = dynamic_cast<const BoxGrid<dim> *>(&grid) != nullptr;
+    is_box = dynamic_cast<const BoxGrid<dim> *>(&grid) != nullptr;
     if (is_box && !boundaries.empty())
       throw EntryError(get_section_name(), "Boundaries",
                        "the faces of a box grid have numbers and no names. Give 'Boundary ids'.");
@@ -190,6 +181,28 @@ namespace Talus
   }
 
   template <int dim>
+  void Condition<dim>::take_mirrored(const unsigned int face, Grid<dim> &grid)
+  {
+    const double force = std::exchange(grid.fields.mirrored_force[face], 0.);
+    reaction[face / 2] += force;
+    nodal_force[face / 2] += force;
+  }
+
+  template <int dim>
+  void Condition<dim>::take_mirrored(Grid<dim> &grid)
+  {
+    for (const auto &part : parts)
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (part.mirrored_faces >> face & 1)
+          take_mirrored(face, grid);
+    // Planes inside a box mirror nothing.
+    for (unsigned int f = boundary_ids.size(); !is_box && f < faces.size(); ++f)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d == faces[f] / 2 || !is_slip())
+          take_mirrored(2 * d + faces[f] % 2, grid);
+  }
+
+  template <int dim>
   void Condition<dim>::arrest(const unsigned int i, const Tensor<1, dim> &n)
   {
     using Fields = NodalFields<dim>;
@@ -216,9 +229,12 @@ namespace Talus
   {
     parts.assign(all_parts.size(), {});
     for (unsigned int list = 0; list < all_parts.size(); ++list)
+    {
+      parts[list].mirrored_faces = all_parts[list].mirrored_faces;
       for (unsigned int k = 0; k < all_parts[list].nodes.size(); ++k)
         if (grid.is_active[all_parts[list].nodes[k]])
           parts[list].add(all_parts[list].nodes[k], all_parts[list].normals[k]);
+    }
     nodes.assign(all_nodes.size(), {});
     for (unsigned int list = 0; list < all_nodes.size(); ++list)
       for (const unsigned int i : all_nodes[list])

@@ -58,12 +58,13 @@ namespace Talus
       using Condition<dim>::Condition;
 
     private:
-      void prescribe(const double, Grid<dim> &) override
+      void prescribe(const double, Grid<dim> &grid) override
       {
         this->for_each_node([&](const unsigned int i) {
           for (unsigned int d = 0; d < dim; ++d)
             this->set(i, d, 0.);
         });
+        this->take_mirrored(grid);
       }
     };
 
@@ -95,6 +96,7 @@ namespace Talus
           for (unsigned int k = 0; k < part.nodes.size(); ++k)
             for (const auto &n : part.basis[k])
               stop(part.nodes[k], n);
+        this->take_mirrored(grid);
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
           const unsigned int id = this->faces[f];
@@ -102,10 +104,7 @@ namespace Talus
             stop(i, id / 2);
           if (f >= this->boundary_ids.size())
             continue; // planes inside the grid mirror nothing
-          // Of two conditions on one face the first has it.
-          const double mirrored = std::exchange(grid.fields.mirrored_force[id], 0.);
-          this->reaction[id / 2] += mirrored;
-          this->nodal_force[id / 2] += mirrored;
+          this->take_mirrored(id, grid);
         }
       }
     };

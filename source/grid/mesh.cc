@@ -11,6 +11,7 @@ namespace Talus
   {
     position = std::move(positions);
     nodes    = std::move(cells);
+    images.clear();
     owner.assign(n_cells(), 0);
     number.resize(n_cells());
     for (unsigned int c = 0; c < n_cells(); ++c)

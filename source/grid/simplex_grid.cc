@@ -38,6 +38,14 @@ namespace Talus
                         "Parts of the boundary, by name or number, on which the functions of all other nodes shall "
                         "vanish, as those of P1 do: walls whose nodes conditions hold.",
                         this->prm, Patterns::List(Patterns::Anything()));
+    this->add_parameter("Slip mirrors", slip_mirrors,
+                        "Slip walls across axes beyond which velocities along the axis are opposite: parts of the "
+                        "boundary, by name or number, beyond which the mesh goes on as its mirror image, or half spaces "
+                        "('x <= 0') where it has a layer of cells whose nodes are mirror images of those before.",
+                        this->prm, Patterns::List(Patterns::Anything()));
+    this->add_parameter("No-slip mirrors", no_slip_mirrors,
+                        "The same where all components are opposite: walls whose nodes are fixed.", this->prm,
+                        Patterns::List(Patterns::Anything()));
     this->add_parameter("Spacing", spacings,
                         "What counts as a cell's edge where bodies and surfaces are filled by points per cell "
                         "[length], one number or one per direction; empty: that of the boxes.",
@@ -94,8 +102,9 @@ namespace Talus
     this->partition.create([this] { return read(); },
                            [&](const CellIterator &cell) { return 1. + 1000. * weight(cell); });
     number_nodes();
-    hold_boundaries();
     find_extent();
+    hold_boundaries();
+    mirror_boundaries();
     is_open.assign(mesh().n_cells(), 0);
     find_open_cells();
   }
@@ -119,26 +128,6 @@ namespace Talus
     this->nodes.reinit(owned, known, communicator, places, mesh().n_nodes());
     fields.reinit(this->nodes);
     this->activate_all();
-  }
-
-  template <int dim>
-  void SimplexGrid<dim>::hold_boundaries()
-  {
-    if (held_boundaries.empty())
-      return;
-    std::vector<char> is_held(this->nodes.n_local(), 0);
-    try
-    {
-      for (const std::string &name : held_boundaries)
-        for (const unsigned int node : boundary(name).nodes)
-          is_held[node] = 1;
-    }
-    catch (const InputError &error)
-    {
-      throw EntryError(this->get_section_name(), "Held boundaries", error.message);
-    }
-    this->spread(is_held);
-    this->partition.mesh.hold(by_place(is_held));
   }
 
   template <int dim>

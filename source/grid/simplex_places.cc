@@ -96,7 +96,7 @@ namespace Talus
     for (unsigned int c = 0; c < n_owned; ++c)
       if (std::any_of(mesh().nodes[c].begin(), mesh().nodes[c].end(), [&](const unsigned int v) { return is_near[v]; }))
         for (std::size_t k = rings.begin[c]; k < rings.begin[c + 1]; ++k)
-          is_reached[rings.node[k]] = 1;
+          is_reached[mesh().real(rings.node[k])] = 1;
     this->activate_nodes(by_number(is_reached));
     find_open_cells();
   }
@@ -126,7 +126,7 @@ namespace Talus
     const Rings &rings = mesh().rings;
     for (unsigned int c = 0; c < this->partition.n_owned_cells; ++c)
       is_open[c] = std::all_of(rings.node.begin() + rings.begin[c], rings.node.begin() + rings.begin[c + 1],
-                               [&](const unsigned int v) { return is_active[v]; });
+                               [&](const unsigned int v) { return is_active[mesh().real(v)]; });
   }
 
   template <int dim>
@@ -177,10 +177,7 @@ namespace Talus
   template <int dim>
   BoundaryPart<dim> SimplexGrid<dim>::boundary(const std::string &name) const
   {
-    MeshInput<dim> input;
-    input.name       = file.empty() ? "generated" : file;
-    input.groups     = this->partition.groups;
-    const auto group = input.groups[input.find_group(name)];
+    const auto group = this->group(name);
     const auto owned = this->dof_handler.locally_owned_dofs();
 
     // Of each node the sums of face normals times areas, one for each smooth part of the boundary that meets there.
@@ -216,6 +213,8 @@ namespace Talus
           }
         }
     BoundaryPart<dim> part;
+    if (const auto mirrored = mirrored_faces.find(group.number); mirrored != mirrored_faces.end())
+      part.mirrored_faces = mirrored->second;
     for (auto &[node, list] : sums)
     {
       for (auto &sum : list)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks what a free body conserves, with every transfer, on statistics.csv.
 
-Usage: run.py TALUS PRM WORK_DIRECTORY RANKS [MPIRUN ...]
+Usage: run.py TALUS PRM WORK_DIRECTORY RANKS [MPIRUN ...] [-- "Section/Entry = value"...]
 
 - Momentum, and what nodes of almost no mass have lost of it since the start: the largest change of the sum over M
   times the body's rms speed at the start is at most 1e-12. The body that flies without stress loses nothing.
@@ -19,13 +19,13 @@ import sys
 TRANSFERS = ("FLIP", "PIC", "blend", "APIC", "TPIC")
 
 
-def run(talus, prm, directory, mpirun, transfer):
+def run(talus, prm, directory, mpirun, settings):
     shutil.rmtree(directory, ignore_errors=True)
-    command = mpirun + [talus, prm, "--set", f"Transfer/Type = {transfer}", "--set", f"Output/Directory = {directory}"]
+    command = mpirun + [talus, prm] + [word for text in settings + [f"Output/Directory = {directory}"] for word in ("--set", text)]
     environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
     result = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if result.returncode != 0:
-        sys.exit(f"FAIL {transfer}: exit status {result.returncode}\n{result.stdout}")
+        sys.exit(f"FAIL {settings}: exit status {result.returncode}\n{result.stdout}")
     with open(os.path.join(directory, "statistics.csv")) as file:
         header, *rows = csv.reader(file)
     names = [name.split(" [")[0] for name in header]
@@ -43,8 +43,9 @@ def drift(values):
 
 
 def main():
-    talus, prm, work, ranks = sys.argv[1:5]
-    mpirun = sys.argv[5:] + ["-n", ranks] if ranks != "1" else []
+    talus, prm, work, ranks, *others = sys.argv[1:]
+    split = others.index("--") if "--" in others else len(others)
+    mpirun, settings = others[:split] + ["-n", ranks] if ranks != "1" else [], others[split + 1:]
     n_failed = 0
 
     def check(name, error, bound):
@@ -54,7 +55,7 @@ def main():
         print(f"{'  pass' if is_good else '  FAIL'} {name}: error / bound = {error / bound:.3g} (bound {bound:g})")
 
     for transfer in TRANSFERS:
-        columns = run(talus, prm, os.path.join(work, transfer), mpirun, transfer)
+        columns = run(talus, prm, os.path.join(work, transfer), mpirun, [f"Transfer/Type = {transfer}"] + settings)
         mass, energy = columns["mass"], columns["kinetic energy"]
         scale = mass[0] * math.sqrt(2 * energy[0] / mass[0])
         total = vectors(columns, "total angular momentum")

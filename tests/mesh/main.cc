@@ -10,6 +10,8 @@ DECLARE(continuity)
 DECLARE(ablation)
 DECLARE(true_gradient)
 DECLARE(held)
+DECLARE(mirrors)
+DECLARE(folded_layers)
 DECLARE(mesh_file)
 DECLARE(location)
 DECLARE(many_particles)
@@ -47,6 +49,10 @@ int main(int argc, char **argv)
                     {"line", line},
                     {"held 2D", held<2>},
                     {"held 3D", held<3>},
+                    {"mirrors 2D", mirrors<2>},
+                    {"mirrors 3D", mirrors<3>},
+                    {"folded layers 2D", folded_layers<2>},
+                    {"folded layers 3D", folded_layers<3>},
                     {"mesh file 2D", mesh_file<2>},
                     {"mesh file 3D", mesh_file<3>},
                     {"wrong meshes", wrong_meshes},

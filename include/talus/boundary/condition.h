@@ -158,6 +158,12 @@ namespace Talus
     /** Sets the components of a node's velocity and of its acceleration along a unit vector to zero. */
     void arrest(const unsigned int i, const dealii::Tensor<1, dim> &n);
 
+    /** Bears what a face has borne of the last transfer as a mirror; of several conditions the first has it. */
+    void take_mirrored(const unsigned int face, Grid<dim> &grid);
+
+    /** The same of all mirrors on its parts of a mesh's boundary, and of its half spaces in a mesh. */
+    void take_mirrored(Grid<dim> &grid);
+
     Prescribed<dim>                       *prescribed = nullptr; // where velocities are solved for
     std::vector<unsigned int>              boundary_ids;
     std::vector<unsigned int>              faces; // 2 axis + side: boundary ids, and faces parallel to the half spaces
@@ -181,6 +187,7 @@ namespace Talus
     std::vector<double>                    positions; // of their planes [length]
     std::vector<double>                    lower, upper;
     std::vector<double>                    start_time, end_time; // one number or none
+    bool                                   is_box = true; // the grid
     double                                 dt   = 0;
     Grid<dim>                             *grid = nullptr;
     HeldComponents<dim>                   *held = nullptr;

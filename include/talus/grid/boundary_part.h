@@ -21,6 +21,9 @@ namespace Talus
     /** An orthonormal basis of what they span. */
     std::vector<std::vector<dealii::Tensor<1, dim>>> basis;
 
+    /** Faces of a box, as bits: what they bear as mirrors is borne by this part; see NodalFields::mirrored_force. */
+    unsigned int mirrored_faces = 0;
+
     void add(const unsigned int node, const std::vector<dealii::Tensor<1, dim>> &its_normals)
     {
       nodes.push_back(node);

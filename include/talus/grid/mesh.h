@@ -63,15 +63,53 @@ namespace Talus
      */
     void hold(const std::vector<char> &is_held);
 
+    /**
+     * A wall across an axis beyond which the mesh goes on as its mirror image. Beyond a slip wall velocities along the
+     * axis are opposite to those of their images, beyond any other all components are.
+     */
+    struct Mirror
+    {
+      unsigned int      axis;
+      bool              is_upper; // the mesh lies below it
+      double            position; // [length]
+      bool              slips;
+      std::vector<char> is_on = {}; // whether a node lies on it, where the mesh ends there
+    };
+
+    /**
+     * Completes the rings of cells at these walls by nodes beyond: images of the nodes joined to a vertex on a wall, and
+     * where walls meet, images of images. The mesh ends at the walls as before, particles never come there.
+     * Test: tests/mesh/mirrors.cc.
+     */
+    void mirror(const std::vector<Mirror> &mirrors);
+
+    /**
+     * The same where the mesh has a layer of cells beyond the walls: its nodes become images of those that lie where
+     * they have their mirror images, whatever the cells. False where a node in the ring of one of the first `n_cells`
+     * cells has none: its position is then in `missing_image`. Test: tests/mesh/mirrors.cc.
+     */
+    bool fold(const std::vector<Mirror> &mirrors, const unsigned int n_cells, Vector &missing_image);
+
+    /** A node beyond mirrors. */
+    struct Image
+    {
+      unsigned int  node;   // what it is an image of
+      unsigned char beyond; // faces of a box along whose normals its velocity is opposite, as in Stencil
+    };
+
+    /** The node itself, or that of which it is an image. */
+    unsigned int real(const unsigned int v) const { return v < n_nodes() ? v : images[v - n_nodes()].node; }
+
     /** A point at which no node counts that is not held has a share of this in each vertex of its cell. */
     static constexpr double least_share = 1e-9;
 
     bool has_held(const unsigned int cell) const { return !held.empty() && held[cell] != 0; }
 
-    unsigned int n_nodes() const { return position.size(); }
+    unsigned int n_nodes() const { return position.size() - images.size(); }
     unsigned int n_cells() const { return nodes.size(); }
 
-    std::vector<Vector> position; // [length]
+    std::vector<Vector> position; // of the nodes, then of the images [length]
+    std::vector<Image>  images;
     std::vector<double> size;     // of a node: the longest edge at it [length]
 
     std::vector<Corners>      nodes;

@@ -5,6 +5,8 @@
 
 #include <deal.II/fe/mapping_fe.h>
 
+#include <map>
+
 namespace Talus
 {
   /** The mesh in parts and its mapping; a base class, so that they are there before the grid refers to them. */
@@ -77,6 +79,16 @@ namespace Talus
   private:
     MeshInput<dim> read() const;
     void           hold_boundaries();
+    void           mirror_boundaries();
+
+    /** A group of faces by name or number. Throws InputError with those there are. */
+    typename MeshInput<dim>::Group group(const std::string &name) const;
+
+    /** Marks of this rank's nodes on a part of the boundary that `entry` names. */
+    std::vector<char> nodes_on(const std::string &name, const std::string &entry) const;
+
+    typename Mesh<dim>::Mirror find_mirror(const std::string &name, const std::string &entry,
+                                           const std::vector<char> &is_on) const;
     void           number_nodes();
 
     /** Marks of nodes in the order of the nodes' numbers, from those in the order of the mesh, and the other way. */
@@ -88,12 +100,13 @@ namespace Talus
     /** Cells of this rank all of whose stencil's nodes are active. */
     void find_open_cells();
 
-    std::vector<char> is_open;
+    std::vector<char>                    is_open;
+    std::map<unsigned int, unsigned int> mirrored_faces; // of groups, see BoundaryPart
 
     std::string               file;
     std::vector<double>       lower_corner, upper_corner, spacings;
     std::vector<unsigned int> cell_counts;
-    std::vector<std::string>  held_boundaries;
+    std::vector<std::string>  held_boundaries, slip_mirrors, no_slip_mirrors;
     double                    ratio = 1;
   };
 

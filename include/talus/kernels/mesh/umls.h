@@ -84,6 +84,20 @@ namespace Talus
     alignas(64) double value[2 << dim][mesh_width];
   };
 
+  /** Nodes beyond mirrors: what they carry is that of their images. */
+  template <int dim>
+  void list_images(const Mesh<dim> &mesh, Stencil<dim> &list)
+  {
+    const unsigned int n = mesh.n_nodes();
+    list.has_images      = true;
+    for (unsigned int k = 0; k < list.size; ++k)
+    {
+      const unsigned int v = list.place[k];
+      list.place[k]        = mesh.real(v);
+      list.beyond[k]       = v < n ? 0 : mesh.images[v - n].beyond;
+    }
+  }
+
   /** Lists the ring of a cell: nodes and offsets; calls `body(k, offset, touches)` for each register of nodes k, ... */
   template <int dim, class Body>
   [[gnu::always_inline]] inline typename Stencil<dim>::Arrays list_ring(const Mesh<dim> &mesh, const unsigned int cell,
@@ -105,6 +119,8 @@ namespace Talus
       }
       body(to, k, offset, &rings.touches[begin + k]);
     }
+    if (!mesh.images.empty())
+      list_images(mesh, list);
     return to;
   }
 
