@@ -182,7 +182,7 @@ def draw(results, path):
             near = particles["initial_position_x"] < 1.5
             X = particles["initial_position_x"][near]
             axes[2].plot(X, particles["stress_xx"][near] / sigma(X) - 1, ".", ms=3, label=name)
-    axes[2].set(xlabel="X", title="UMLS, h = .25: stress over the exact one, less 1")
+    axes[2].set(xlabel="X", title="UMLS, h = .25: relative error of stress")
     axes[2].legend(fontsize=7)
     figure.savefig(path, dpi=130)
     plt.close(figure)

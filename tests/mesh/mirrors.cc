@@ -131,11 +131,12 @@ void mirrors()
       };
       for_points(half, 2, [&](const unsigned int c, const Coordinates<dim> &x) {
         static Stencil<dim> expected, list;
-        umls<CubicWeight>(whole, c, x.data(), {}, expected);
-        umls<CubicWeight>(mirror, c, x.data(), {}, list);
+        const MeshPoint<dim> point{c, x};
+        umls<CubicWeight>(whole, 1, &point, {}, &expected);
+        umls<CubicWeight>(mirror, 1, &point, {}, &list);
         compare(expected, list, x);
-        c1_umls<CubicWeight>(whole, whole_feet[c], c, x.data(), {}, expected);
-        c1_umls<CubicWeight>(mirror, feet[c], c, x.data(), {}, list);
+        c1_umls<CubicWeight>(whole, whole_feet.data(), 1, &point, {}, &expected);
+        c1_umls<CubicWeight>(mirror, feet.data(), 1, &point, {}, &list);
         compare(expected, list, x);
       });
       const std::string title = name + ", " + std::to_string(n) + " mirrors: ";
@@ -164,8 +165,9 @@ void folded_layers()
       if (whole.position[v][0] < .5 - 1e-9 || whole.position[v][1] > .5 + 1e-9)
         return;
     static Stencil<dim> expected, list;
-    umls<CubicWeight>(whole, c, x.data(), {}, expected);
-    umls<CubicWeight>(mesh, c, x.data(), {}, list);
+    const MeshPoint<dim> point{c, x};
+    umls<CubicWeight>(whole, 1, &point, {}, &expected);
+    umls<CubicWeight>(mesh, 1, &point, {}, &list);
     n_wrong += expected.size != list.size;
     for (unsigned int k = 0; k < list.size; ++k)
     {
