@@ -1,30 +1,20 @@
 """Two halves of a square set off in opposite directions: Cao et al., what APIC conserves on triangles."""
 import math
-import pathlib
-import subprocess
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import meshes
 import numpy as np
 import report
-import runs as program
 from runs import Run
 
 TITLE = "APIC on triangles: momentum and angular momentum of P1, UMLS and C1 UMLS"
-MESH = pathlib.Path("prm/meshes/square.msh")
-
-
-def mesh():
-    """By gmsh, which has to be installed: Debian's package of that name."""
-    directory = program.ROOT / MESH.parent
-    subprocess.run(["gmsh", "-2", "-format", "msh41", "square.geo", "-o", MESH.name], cwd=directory, check=True,
-                   stdout=subprocess.DEVNULL)
 
 
 def runs():
-    mesh()
+    meshes.make("square", 2)
     return [Run("prm/umls_apic.prm", {"Kernel/Type": kernel}, {"kernel": kernel}) for kernel in ("P1", "UMLS", "C1 UMLS")]
 
 
