@@ -88,7 +88,8 @@ set(walls "Conditions/walls/Boundary ids = "
 talus_compare(balls_3d UMLS_TPIC "${ranks}" ${mesh} ${walls} "Kernel/Type = UMLS" "Transfer/Type = TPIC")
 talus_compare(balls_3d C1_UMLS_APIC "1;4" ${mesh} ${walls} "Kernel/Type = C1 UMLS" "Transfer/Type = APIC")
 # Velocities scattered once more, and walls at which the mesh goes on as its mirror image.
-talus_compare(disk_2d UMLS_MUSL "${ranks}" ${mesh} "Kernel/Type = UMLS" "Run/MUSL = true" "Run/Mass cutoff = 1e-4")
+talus_compare(disk_2d UMLS_MUSL "${ranks}" ${mesh} "Kernel/Type = UMLS" "Run/MUSL = true" "Run/Mass cutoff = 1e-4"
+  "Run/End time = 0.1")
 talus_compare(balls_3d UMLS_mirrors "1;2" ${mesh} ${walls} "Kernel/Type = UMLS" "Transfer/Type = APIC" "Run/MUSL = true"
   "Grid/Slip mirrors = lower x, upper x, lower y, upper y, lower z, upper z")
 
