@@ -4,6 +4,7 @@
 #include <talus/core/registry.h>
 
 #include <utility>
+#include <unordered_map>
 
 namespace Talus
 {
@@ -142,6 +143,22 @@ namespace Talus
                             Patterns::Double());
         this->add_parameter("Wall velocity", wall_text,
                             "Velocity of the wall [length/time]: functions of x, y, z, t, separated by ';'.");
+        this->add_parameter("Account time", account_time,
+                            "How long a node may use normal impulse that friction has not used, so that it sticks through "
+                            "vibrations [time]; 0: that of the step alone.",
+                            this->prm, Patterns::Double(0));
+      }
+
+      void keep(const unsigned int node, const unsigned int axis,
+                const typename Prescribed<dim>::Contact &contact) override
+      {
+        next[std::size_t{node} * dim + axis] = {{contact.account, contact.mean}};
+      }
+
+      void forget() override
+      {
+        accounts.clear();
+        next.clear();
       }
 
       void parse_parameters(ParameterHandler &prm) override
@@ -183,6 +200,11 @@ namespace Talus
       void prescribe(const double time, Grid<dim> &grid) override
       {
         Tensor<1, dim> v_wall = wall.value({}, time);
+        if (!next.empty()) // who is not near any more has none
+        {
+          accounts.swap(next);
+          next.clear();
+        }
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
           Tensor<1, dim> n;
@@ -196,7 +218,14 @@ namespace Talus
             }
             if (wall.depends_on_space())
               v_wall = wall.value(grid.node_position(i), time);
-            this->prescribed->press(i, this->faces[f] / 2, n[this->faces[f] / 2], mu, v_wall);
+            const unsigned int axis = this->faces[f] / 2;
+            auto &contact           = this->prescribed->press(i, axis, n[axis], mu, v_wall);
+            contact.account_time    = account_time;
+            if (const auto at = accounts.find(std::size_t{i} * dim + axis); at != accounts.end())
+            {
+              contact.account = at->second[0];
+              contact.mean    = at->second[1];
+            }
           }
         }
         for (const auto &part : this->parts)
@@ -227,7 +256,10 @@ namespace Talus
 
       ParsedVector<dim> wall;
       std::string       wall_text;
-      double            mu = 0;
+      double            mu = 0, account_time = 0;
+
+      // Accounts and means of nodes and axes [momentum].
+      std::unordered_map<std::size_t, std::array<double, 2>> accounts, next;
     };
 
     const RegisterDimensions<Condition, Velocity> velocity("velocity", "velocity as a function of place and time");

@@ -1,110 +1,19 @@
+#include <talus/core/parameter_names.h>
 #include <talus/core/parameters.h>
-
 #include <talus/core/pattern_text.h>
-#include <talus/core/text_file.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <cctype>
-#include <numeric>
 #include <sstream>
 
 namespace Talus
 {
   using namespace dealii;
+  using namespace ParameterNames;
 
   namespace
   {
-    std::string join(const std::vector<std::string> &path)
-    {
-      std::string key;
-      for (const auto &part : path)
-        key += (key.empty() ? "" : "/") + part;
-      return key;
-    }
-
-    /** The parts of "/A/B" or "A/B"; none for "" and "/". */
-    std::vector<std::string> split(const std::string &key)
-    {
-      std::vector<std::string> parts;
-      for (const auto &part : Utilities::split_string_list(key, '/'))
-        if (!part.empty())
-          parts.push_back(part);
-      return parts;
-    }
-
-    std::string parent(const std::string &key)
-    {
-      const auto slash = key.rfind('/');
-      return slash == std::string::npos ? "" : key.substr(0, slash);
-    }
-
-    std::string leaf(const std::string &key)
-    {
-      const auto slash = key.rfind('/');
-      return slash == std::string::npos ? key : key.substr(slash + 1);
-    }
-
-    /** "entry 'x' in section 'y'". */
-    std::string describe(const std::string &key)
-    {
-      return "entry '" + leaf(key) + "'" + (parent(key).empty() ? "" : " in section '" + parent(key) + "'");
-    }
-
-    /** What follows `keyword` in `line`, or false when the line does not begin with it. */
-    bool starts_with(const std::string &line, const std::string &keyword, std::string &rest)
-    {
-      if (line.size() < keyword.size())
-        return false;
-      for (unsigned int i = 0; i < keyword.size(); ++i)
-        if (std::tolower(line[i]) != keyword[i])
-          return false;
-      if (line.size() > keyword.size() && !std::isspace(line[keyword.size()]))
-        return false;
-      rest = Utilities::trim(line.substr(keyword.size()));
-      return true;
-    }
-
-    unsigned int edit_distance(const std::string &a, const std::string &b)
-    {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (unsigned int i = 0; i < a.size(); ++i)
-      {
-        unsigned int diagonal = row[0]++;
-        for (unsigned int j = 0; j < b.size(); ++j)
-        {
-          const bool         is_same = std::tolower(a[i]) == std::tolower(b[j]);
-          const unsigned int best    = std::min({row[j] + 1, row[j + 1] + 1, diagonal + !is_same});
-          diagonal                   = row[j + 1];
-          row[j + 1]                 = best;
-        }
-      }
-      return row.back();
-    }
-
-    std::string did_you_mean(const std::string &word, const std::vector<std::string> &candidates)
-    {
-      const std::string best = closest(word, candidates);
-      return best.empty() ? "" : " Did you mean '" + best + "'?";
-    }
-
-    /** The text of a file; `where` begins the message of one that cannot be read or is empty. */
-    std::string read(const std::string &file_name, const std::string &where, const std::string &purpose)
-    {
-      TextFile    file(file_name, purpose);
-      std::string text;
-      for (const auto &line : file.lines)
-        text += line + '\n';
-      if (file.problem.empty() && text.find_first_not_of(" \t\n") == std::string::npos)
-        file.problem = purpose + " '" + file_name + "' is empty. Check the name.";
-      if (where.empty() && !file.problem.empty())
-        file.problem[0] = std::toupper(file.problem[0]);
-      AssertThrow(file.problem.empty(), InputError(where + file.problem));
-      return text;
-    }
-
     void enter(ParameterHandler &prm, const std::vector<std::string> &path)
     {
       for (const auto &part : path)
@@ -117,131 +26,6 @@ namespace Talus
         prm.leave_subsection();
     }
   } // namespace
-
-  std::string parameter_key(const std::string &section, const std::string &entry)
-  {
-    std::string key = section;
-    while (!key.empty() && key.front() == '/')
-      key.erase(0, 1);
-    return key.empty() ? entry : key + "/" + entry;
-  }
-
-  std::string closest(const std::string &word, const std::vector<std::string> &candidates)
-  {
-    std::string  best;
-    unsigned int distance = std::max<unsigned int>(3, word.size() / 3 + 1);
-    for (const auto &candidate : candidates)
-      if (const unsigned int d = edit_distance(word, candidate); d < distance)
-      {
-        distance = d;
-        best     = candidate;
-      }
-    return best;
-  }
-
-  Parameters::Parameters(const std::string &file_name, const std::vector<std::string> &overrides) : file_name(file_name)
-  {
-    ParameterAcceptor::prm.clear();
-    std::istringstream       in(read(file_name, "", "the parameter file"));
-    std::vector<std::string> path;
-    scan(in, file_name, path);
-    for (const auto &text : overrides)
-      add_override(text);
-  }
-
-  Parameters Parameters::from_text(const std::string &text)
-  {
-    ParameterAcceptor::prm.clear();
-    Parameters               parameters;
-    std::istringstream       in(text);
-    std::vector<std::string> path;
-    parameters.file_name = "text";
-    parameters.scan(in, "text", path);
-    return parameters;
-  }
-
-  void Parameters::scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path)
-  {
-    const std::size_t depth = path.size();
-    open_files.push_back(file_name);
-    std::vector<std::string> opened_at;
-    std::string              line, next, rest;
-    for (unsigned int number = 1; std::getline(in, line); ++number)
-    {
-      const std::string origin = file_name + ":" + std::to_string(number);
-      const auto        strip = [](const std::string &text) { return Utilities::trim(text.substr(0, text.find('#'))); };
-      line                    = strip(line);
-      while (!line.empty() && line.back() == '\\' && std::getline(in, next))
-      {
-        line.back() = ' ';
-        line        = Utilities::trim(line + strip(next));
-        ++number;
-      }
-
-      if (line.empty())
-        continue;
-      else if (starts_with(line, "subsection", rest))
-      {
-        AssertThrow(!rest.empty() && rest.find('/') == std::string::npos,
-                    InputError(origin + ": a subsection needs a name without '/'."));
-        path.push_back(rest);
-        opened_at.push_back(origin);
-        sections.emplace(join(path), origin);
-      }
-      else if (starts_with(line, "end", rest))
-      {
-        // "End time = 1" is meant as an entry.
-        AssertThrow(rest.empty(), InputError(origin + (line.find('=') == std::string::npos ?
-                                                         ": nothing may follow 'end'." :
-                                                         ": cannot understand '" + shortened(line) +
-                                                           "'. Is 'set' missing before it? Nothing may follow 'end'.")));
-        AssertThrow(path.size() > depth, InputError(origin + ": this 'end' closes no subsection. Remove it."));
-        path.pop_back();
-        opened_at.pop_back();
-      }
-      else if (starts_with(line, "include", rest))
-      {
-        AssertThrow(!rest.empty(), InputError(origin + ": 'include' needs the name of a file."));
-        const auto        slash = file_name.rfind('/');
-        const std::string included =
-          rest.front() == '/' || slash == std::string::npos ? rest : file_name.substr(0, slash + 1) + rest;
-        AssertThrow(std::find(open_files.begin(), open_files.end(), included) == open_files.end(),
-                    InputError(origin + ": '" + included + "' includes itself, directly or through another file."));
-        std::istringstream file(read(included, origin + ": ", "the included file"));
-        scan(file, included, path);
-      }
-      else if (starts_with(line, "set", rest))
-      {
-        const auto equal = rest.find('=');
-        AssertThrow(equal != std::string::npos,
-                    InputError(origin + ": expected 'set entry = value', found '" + shortened(line) + "'."));
-        auto here = path;
-        here.push_back(Utilities::trim(rest.substr(0, equal)));
-        const auto known = settings.find(join(here));
-        AssertThrow(known == settings.end(), InputError(origin + ": " + describe(join(here)) + " was set before, at " +
-                                                        known->second.origin + ". Remove one of the two."));
-        settings[join(here)] = {Utilities::trim(rest.substr(equal + 1)), origin};
-      }
-      else
-        throw InputError(origin + ": cannot understand '" + shortened(line) + "'." +
-                         (line.find('=') == std::string::npos ? "" : " Is 'set' missing before it?") +
-                         " A line is 'subsection name', 'set entry = value', 'include file', 'end' or a # comment.");
-    }
-    AssertThrow(path.size() == depth, InputError(opened_at.back() + ": subsection '" + path.back() +
-                                                 "' is never closed. Add 'end' where it stops."));
-    open_files.pop_back();
-  }
-
-  void Parameters::add_override(const std::string &text)
-  {
-    const auto equal = text.find('=');
-    AssertThrow(equal != std::string::npos, InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
-    const std::string key   = join(split(text.substr(0, equal)));
-    const auto        known = settings.find(key);
-    if (known != settings.end() && leaf(key) == "Names")
-      names_of_file.emplace(parent(key), known->second.value);
-    settings[key] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
-  }
 
   const Parameters::Setting *Parameters::find(const std::string &section, const std::string &entry) const
   {

@@ -36,8 +36,8 @@ namespace Talus
     create_triangulation(weight);
     number_nodes();
     fill_tables(reach.layers);
-    coverage           = lattice.coverage(reach.n);
     knows_all_stencils = Utilities::MPI::n_mpi_processes(communicator) == 1;
+    coverage           = knows_all_stencils ? std::vector<char>(lattice.node.size(), true) : lattice.coverage(reach.n);
   }
 
   template <int dim>

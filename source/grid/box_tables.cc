@@ -3,6 +3,7 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -29,9 +30,10 @@ namespace Talus
     dof_handler.distribute_dofs(this->fe);
 
     // Lexicographic order of the nodes this rank owns.
-    std::vector<std::pair<std::array<int, dim>, types::global_dof_index>> owned;
-    const IndexSet                                                        before = dof_handler.locally_owned_dofs();
-    std::vector<bool>                                                     is_seen(before.n_elements(), false);
+    std::vector<std::pair<std::uint64_t, types::global_dof_index>> owned;
+    const IndexSet                                                 before = dof_handler.locally_owned_dofs();
+    std::vector<bool>                                              is_seen(before.n_elements(), false);
+    owned.reserve(before.n_elements());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int v : cell->vertex_indices())
@@ -40,14 +42,17 @@ namespace Talus
           if (!before.is_element(dof) || is_seen[before.index_within_set(dof)])
             continue;
           is_seen[before.index_within_set(dof)] = true;
-          auto index                            = to_index(lattice, cell->vertex(v), 0.5);
-          std::reverse(index.begin(), index.end());
-          owned.emplace_back(index, dof);
+          const auto    index                   = to_index(lattice, cell->vertex(v), 0.5);
+          std::uint64_t number                  = 0;
+          for (unsigned int d = dim; d-- > 0;)
+            number = number * (lattice.n_cells[d] + 1) + index[d];
+          owned.emplace_back(number, dof);
         }
     std::sort(owned.begin(), owned.end());
     std::vector<types::global_dof_index> numbers(owned.size());
-    for (unsigned int i = 0; i < owned.size(); ++i)
-      numbers[before.index_within_set(owned[i].second)] = before.nth_index_in_set(i);
+    auto                                 next = before.begin();
+    for (const auto &[number, dof] : owned)
+      numbers[before.index_within_set(dof)] = *next++;
     dof_handler.renumber_dofs(numbers);
   }
 
@@ -60,7 +65,7 @@ namespace Talus
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
       {
-        const auto index = to_index(lattice, cell->center(), 0.);
+        const auto index = to_index(lattice, cell->vertex(0), 0.5);
         for (unsigned int d = 0; d < dim; ++d)
         {
           first[d] = std::min(first[d], index[d]);
@@ -76,7 +81,7 @@ namespace Talus
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
       {
-        const auto index     = to_index(lattice, cell->center(), 0.);
+        const auto index     = to_index(lattice, cell->vertex(0), 0.5);
         const int  entry     = lattice.table_index(index);
         lattice.owner[entry] = cell->subdomain_id();
         if (cell->is_locally_owned())

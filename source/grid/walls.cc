@@ -228,7 +228,10 @@ namespace Talus
         if (contact.outward == 0)
           continue;
         bits |= 1u << ((contact.outward < 0 ? pressed_below : pressed_above) + c);
-        to[friction + c] = contact.coefficient;
+        to[friction + c]       = contact.coefficient;
+        to[account_time + c]   = contact.account_time;
+        to[account_before + c] = contact.account;
+        to[mean_before + c]    = contact.mean;
         for (unsigned int d = 0; d < dim; ++d)
           to[wall_velocity + dim * c + d] = contact.velocity[d];
       }

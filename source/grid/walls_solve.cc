@@ -21,7 +21,7 @@ namespace Talus
       solve_component(c, dt, of.v);
     }
     for (Press &one : presses)
-      press(one);
+      press(one, dt);
 
     damping_work           = 0;
     const bool has_mirrors = std::find(is_mirrored.begin(), is_mirrored.end(), true) != is_mirrored.end();
@@ -153,14 +153,28 @@ namespace Talus
   }
 
   template <int dim>
-  void Walls<dim>::press(Press &press)
+  void Walls<dim>::press(Press &press, const double dt)
   {
     const unsigned int r = press.real, n = press.axis;
     const auto         wall = [&](const unsigned int d) { return record(r, wall_velocity + dim * n + d); };
-    if (!(press.outward * (unknowns[n].v[r] - wall(n)) > 0) || unknowns[n].is_fixed[r])
+    const double       tau = record(r, account_time + n), mu = record(r, friction + n);
+    double             J = 0;
+    if (press.outward * (unknowns[n].v[r] - wall(n)) > 0 && !unknowns[n].is_fixed[r])
+    {
+      J              = std::max(0., press.outward * fix(r, n, wall(n)));
+      press.fixes[n] = press.acts = true;
+    }
+    double most = J;
+    if (tau > 0)
+    {
+      const double share = std::min(1., dt / tau);
+      press.mean         = record(r, mean_before + n) + share * (J - record(r, mean_before + n));
+      press.account      = (1 - share) * record(r, account_before + n) + J;
+      most               = std::min(press.account, std::max(J, 10 * press.mean));
+    }
+    press.acts = press.acts || most > 0;
+    if (!press.acts)
       return;
-    const double limit = record(r, friction + n) * std::max(0., press.outward * fix(r, n, wall(n)));
-    press.fixes[n]     = true;
 
     // What sticking would take; if that is too much, the node slides, and the wall takes what it can.
     Tensor<1, dim> impulse;
@@ -170,8 +184,13 @@ namespace Talus
         press.fixes[c] = true;
         impulse[c]     = fix(r, c, wall(c));
       }
+    const double limit = mu * most;
     if (impulse.norm() <= limit)
+    {
+      press.account -= limit > 0 ? impulse.norm() / mu : 0.;
       return;
+    }
+    press.account = 0;
     for (unsigned int c = 0; c < dim; ++c)
       if (c != n && press.fixes[c])
       {
@@ -269,9 +288,13 @@ namespace Talus
     }
     for (const Press &press : presses)
     {
-      if (press.real >= n_owned_reals || !press.fixes[press.axis])
+      if (press.real >= n_owned_reals)
         continue;
       auto &contact   = prescribed.of(real_node[press.real]).contact[press.axis];
+      contact.account = press.account;
+      contact.mean    = press.mean;
+      if (!press.acts)
+        continue;
       contact.acts    = true;
       contact.impulse = press.load;
       for (unsigned int c = 0; c < dim; ++c)
@@ -287,7 +310,7 @@ namespace Talus
   template void   Walls<dim>::assemble_block(const unsigned int, const Block &);                                       \
   template void   Walls<dim>::solve_block(const unsigned int, const unsigned int, std::vector<double> &);              \
   template void   Walls<dim>::find_presses();                                                                          \
-  template void   Walls<dim>::press(Press &);                                                                          \
+  template void   Walls<dim>::press(Press &, const double);                                                                         \
   template double Walls<dim>::fix(const unsigned int, const unsigned int, const double);                               \
   template void   Walls<dim>::damp(const unsigned int, const double);                                                  \
   template void   Walls<dim>::find_rest(const unsigned int, const double);                                             \

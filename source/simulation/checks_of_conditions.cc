@@ -132,6 +132,9 @@ namespace Talus
       const std::string section = condition->get_section_name();
       idle(section, "Wall velocity", number(section, "Friction coefficient") == 0,
            "a wall moves along itself, and without a 'Friction coefficient' nothing follows it.");
+      if (number(section, "Account time") > 0 && !model.walls.has_ghosts())
+        throw EntryError(section, "Account time",
+                         "accounts are kept where walls have ghost nodes. Set 'Boundary treatment = ghost nodes', or 0.");
     }
   }
 

@@ -65,6 +65,29 @@ def case_incline_3d(runs):
     case_incline(runs, "incline_3d.prm", {"x": math.cos(math.radians(35)), "z": math.sin(math.radians(35))})
 
 
+def case_account(runs):
+    """
+    A block under the slope's load at once, which makes it vibrate: with accounts it stays where mu > tan 30 degrees, but for
+    its elastic sag and what it slides before there is an account. Whether it stays or slides, friction never takes more
+    than mu times what the floor has given.
+    """
+    tau = 6.4 / 36.7  # 64 h/c
+    for mu in (0.65, 0.5):
+        s = runs.statistics("../../prm/incline.prm", f"mu_{mu}", "Kernel/Boundary treatment = ghost nodes",
+                            f"Conditions/slope/Friction coefficient = {mu}", f"Conditions/slope/Account time = {tau}",
+                            "Bodies/block/Velocity = 0; 0", "Bodies/block/Initial stress = none", "Run/End time = 1")
+        time, v = s["time"], [p / m for p, m in zip(s["momentum_x"], s["mass"])]
+        way = sum((time[k] - time[k - 1]) * v[k] for k in range(1, len(time)))
+        if mu > math.tan(math.pi / 6):
+            runs.check(f"mu = {mu}: way {way:.5g}", way, 0.01)
+        given = taken = most = 0
+        for k in range(1, len(time)):
+            given -= mu * s["reaction slope y"][k] * s["step size"][k]
+            taken += s["reaction slope x"][k] * s["step size"][k]
+            most = max(most, taken / given if given > 0 else 0)
+        runs.check(f"mu = {mu}: friction over what the floor has given {most:.6g}", max(0, most - 1), 1e-9)
+
+
 def case_damping(runs):
     """
     Local damping of the first mode of a bar: force and velocity are one shape, so that it is a single oscillator

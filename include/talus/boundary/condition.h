@@ -48,6 +48,12 @@ namespace Talus
       work -= impulse * velocity;
     }
 
+    /** Keeps what a face's account has become in a step; without accounts nothing is kept. */
+    virtual void keep(const unsigned int /* node */, const unsigned int /* axis */,
+                      const typename Prescribed<dim>::Contact & /* contact */)
+    {
+    }
+
     /** Whether it acts in a step that ends at `time`. */
     bool acts(const double time) const;
 
@@ -103,6 +109,9 @@ namespace Talus
     double work = 0;
 
   protected:
+    /** Empties its accounts: its interval has ended, or has not begun. */
+    virtual void forget() {}
+
     virtual void prescribe(const double time, Grid<dim> &grid) = 0;
 
     /** Calls `body(i)` for all its active nodes. */

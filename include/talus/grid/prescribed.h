@@ -24,6 +24,12 @@ namespace Talus
       double                 coefficient = 0; // mu [1]
       dealii::Tensor<1, dim> velocity;        // of the wall [length/time]
       unsigned int           condition = nobody;
+
+      // Normal impulse that friction has not used yet, how long it stays, and the mean of what there is in a step; after
+      // the step what they have become. Walls::press() says what for.
+      double account_time = 0;      // 0: there is no account [time]
+      double account = 0, mean = 0; // [momentum]
+
       dealii::Tensor<1, dim> impulse; // taken from the body [momentum]
       bool                   acts = false;
     };
@@ -60,8 +66,8 @@ namespace Talus
     }
 
     /** Lets a node press against a face. Of two conditions on one face the last has it. */
-    void press(const unsigned int i, const unsigned int axis, const double outward, const double coefficient,
-               const dealii::Tensor<1, dim> &velocity)
+    Contact &press(const unsigned int i, const unsigned int axis, const double outward, const double coefficient,
+                   const dealii::Tensor<1, dim> &velocity)
     {
       Contact &contact    = entry(i).contact[axis];
       contact             = {};
@@ -69,6 +75,7 @@ namespace Talus
       contact.coefficient = coefficient;
       contact.velocity    = velocity;
       contact.condition   = condition;
+      return contact;
     }
 
     /** What is asked of a node of which something is. */

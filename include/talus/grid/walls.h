@@ -60,9 +60,10 @@ namespace Talus
     static constexpr unsigned int none = static_cast<unsigned int>(-1);
 
     // What the ranks tell each other of a wall node: its sums, and of real nodes what is asked, the held velocity, and
-    // for each axis the friction coefficient and the velocity of a wall.
+    // for each axis the friction coefficient and the velocity of a wall, and its account.
     static constexpr unsigned int asked = 8, held_velocity = 9, friction = 9 + dim, wall_velocity = 9 + 2 * dim,
-                                  n_lanes = 9 + dim * (2 + dim);
+                                  account_time = 9 + dim * (2 + dim), account_before = account_time + dim,
+                                  mean_before = account_before + dim, n_lanes = mean_before + dim;
 
     // What is asked, as bits: components held, held in a plane of symmetry; axes with friction below or above.
     static constexpr unsigned int held = 0, symmetric = dim, pressed_below = 2 * dim, pressed_above = 3 * dim;
@@ -105,7 +106,9 @@ namespace Talus
     {
       unsigned int           real, axis;
       double                 outward;
-      std::array<bool, dim>  fixes{}; // components
+      bool                   acts = false;
+      double                 account = 0, mean = 0; // after this step [momentum]
+      std::array<bool, dim>  fixes{};               // components
       dealii::Tensor<1, dim> load;    // impulse of sliding friction on the wall [momentum]
     };
 
@@ -143,7 +146,17 @@ namespace Talus
     void solve_block(const unsigned int c, const unsigned int block, std::vector<double> &v);
 
     void   find_presses();
-    void   press(Press &press);
+
+    /**
+     * Friction of one node: what sticking would take of its tangential momentum, if mu times the normal impulse J of the
+     * step allows it; else that against the motion.
+     *
+     * With an account, A <- (1 - dt/tau) A + J less what friction uses over mu, J_mean <- J_mean + dt/tau (J - J_mean),
+     * it is mu min(A, max(J, 10 J_mean)) that allows it, also in a step in which the node does not press, and the node
+     * sticks through its vibrations. So friction never takes more than mu times what the wall has given. A node that
+     * slides has used all it has: what has gathered in rest is no brake.
+     */
+    void   press(Press &press, const double dt);
     double fix(const unsigned int r, const unsigned int c, const double velocity);
     void   damp(const unsigned int c, const double factor);
     void   find_rest(const unsigned int c, const double dt);
