@@ -15,7 +15,7 @@ namespace
   void run(Setup<dim> &setup, const bool is_plain)
   {
     setup.transfer->is_plain = is_plain;
-    auto &particles = setup.particles;
+    auto &particles          = setup.particles;
     randomize_motion(setup);
     setup.randomize(particles.stress, 5);
     // Domains are sheared and stretched.
@@ -89,8 +89,8 @@ void batched_and_plain()
 {
   for (const std::string transfer : {"FLIP", "PIC", "blend", "APIC", "TPIC"})
     for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
-      for (const std::string treatment : {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror",
-                                          "ghost nodes"})
+      for (const std::string treatment :
+           {"none", "Steffen", "WLS", "WLS separable", "WLS everywhere", "MLS", "mirror", "ghost nodes"})
         if (treatment != "Steffen" || kernel != "uGIMP")
           compare<dim>(kernel, treatment, transfer);
 }

@@ -18,8 +18,8 @@ namespace Talus
 
     static constexpr unsigned int n_corners = Corners<dim>::n, n_nodes = 1u << dim;
 
-    Matrix half_edges; // in the rows [length]
-    Matrix dual;       // in the columns: dual[d][e] is the component d of r^e, r^e . r_f = delta_ef [1/length]
+    Matrix half_edges;          // in the rows [length]
+    Matrix dual;                // in the columns: dual[d][e] is the component d of r^e, r^e . r_f = delta_ef [1/length]
     Vector fraction[n_corners]; // of the way from the cell's first node to its last
     Number hat[n_corners][n_nodes];
 

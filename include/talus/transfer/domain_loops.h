@@ -27,7 +27,7 @@ namespace Talus
     using Gather = Simd<Scheme::gathers_increment ? 8 : 4>;
 
     static constexpr unsigned int n_corners = Hats::n_corners, n_nodes = Hats::n_nodes;
-    static constexpr double       share     = 1. / n_corners;
+    static constexpr double       share = 1. / n_corners;
 
     static_assert(Fields::momentum + dim <= 4 && Fields::velocity + dim <= 4, "the layout of a node");
 
@@ -116,7 +116,7 @@ namespace Talus
       }
     }
 
-    [[gnu::always_inline]] static void scatter(const Hats &hats, const Contribution<dim, Scheme> &add,
+    [[gnu::always_inline]] static void scatter(const Hats &hats, const Contribution<dim, Scheme>             &add,
                                                const Simd<4> (&moment)[dim][native_width], const unsigned int l,
                                                Fields &fields)
     {
@@ -160,7 +160,7 @@ namespace Talus
     struct Sums
     {
       Gather value[native_width], slope[dim][native_width]; // the latter with the signs along a half edge
-      Gather moment[dim][native_width];                     // sums over a cell's nodes times their offsets from the corner
+      Gather moment[dim][native_width]; // sums over a cell's nodes times their offsets from the corner
 
       [[gnu::always_inline]] void gather(const Hats &hats, const unsigned int l, const Fields &fields)
       {
