@@ -148,11 +148,11 @@ def figures(results):
 
 def draw(results, path):
     figure, axes = plt.subplots(1, 3, figsize=(13, 4), layout="constrained")
-    lines = {}
+    lines, ratios = {}, {str(ratio): ratio for ratio in (1, *RATIOS)}
     for result in results:
         label = result.run.label
         if (label["v0"], label["transfer"]) == (0.75, "TPIC") and result.run.name == run(
-                label["kernel"], label["h"], label["ratio"], mesh=label["mesh"]).name:
+                label["kernel"], label["h"], ratios[label["ratio"]], mesh=label["mesh"]).name:
             lines.setdefault((label["kernel"], label["mesh"], label["ratio"]), []).append((label["h"], displacement_error(result)))
     styles = {NO_GAMMA: ":", "UMLS": "-", "C1 UMLS": "--"}
     colours = dict(zip(("1", *map(str, RATIOS)), ("k", "tab:blue", "tab:green", "tab:red")))

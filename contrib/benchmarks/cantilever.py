@@ -112,7 +112,8 @@ def draw(results, path):
                 drawn = axis.scatter(particles["x"], particles["y"], s=1, c=particles["stress_xx"] / 1e6, vmin=-1, vmax=1,
                                      cmap="coolwarm", linewidths=0)
                 figure.colorbar(drawn, ax=axis, label="stress xx [MPa]", shrink=0.8)
-            axis.set(title=f"UMLS, {kind}, {angle} degrees, t = .5", xlim=(0, 4.3), ylim=(-1.2, 1.4), aspect="equal")
+            axis.set_title(f"UMLS, {kind}, {angle} degrees, t = .5", fontsize=8)
+            axis.set(xlim=(0, 4.3), ylim=(-1.2, 1.4), aspect="equal")
         for axis, kernel in zip(row[2:], ("UMLS", "C1 UMLS")):
             axis.plot(*motion(by["FEM", "squares", 0, 0.1]), "k", lw=1.5, label="FEM")
             for angle in ANGLES:
