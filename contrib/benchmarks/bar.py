@@ -162,7 +162,8 @@ def draw(results, path):
                            color=colours[ratio], ms=3, lw=1, label=f"{kernel}, {mesh}, {ratio} : 1")
     axes[0].loglog((0.125, 1), (2e-5, 1.28e-3), "0.7", lw=4, zorder=0, label="order 2")
     axes[0].set(xlabel="mean spacing h", ylabel="rms error of u over the greatest u", title="Displacement over a period")
-    axes[0].legend(fontsize=6)
+    axes[0].set(ylim=(2e-6, 0.3))
+    axes[0].legend(fontsize=4.5, ncol=2, loc="lower right")
     x = np.linspace(0, LENGTH)
     sigma = lambda x: E * 0.75 / W * B * np.cos(B * x)
     for name, result in (("UMLS, no gamma, halves", pick(results, NO_GAMMA, 0.25)),
