@@ -12,7 +12,7 @@ namespace Talus
       acting.push_back(condition->acts(time));
     if (acting == marked)
       return;
-    marked = acting;
+    marked         = acting;
     const auto box = dynamic_cast<BoxGrid<dim> *>(&grid);
     if (box == nullptr)
       return; // meshes have no treatment that would ask

@@ -15,9 +15,10 @@ namespace Talus
     add_parameter("Boundary ids", boundary_ids,
                   "Faces of the grid's box: 0, 1 are the lower and upper face in x, 2, 3 in y, 4, 5 in z.", prm,
                   Patterns::List(Patterns::Integer(0, 2 * dim - 1), 0, 2 * dim));
-    add_parameter("Boundaries", boundaries,
-                  "Parts of a mesh's boundary by name or number: its groups of faces ('Type = mesh' in section 'Grid').",
-                  prm, Patterns::List(Patterns::Anything()));
+    add_parameter(
+      "Boundaries", boundaries,
+      "Parts of a mesh's boundary by name or number: its groups of faces ('Type = mesh' in section 'Grid').", prm,
+      Patterns::List(Patterns::Anything()));
     add_parameter("Half spaces", half_spaces,
                   "All nodes at and beyond walls inside the grid, for instance 'x <= 0.1, y >= 2' [length].", prm,
                   Patterns::List(Patterns::Anything()));
@@ -159,9 +160,9 @@ namespace Talus
   template <int dim>
   void Condition<dim>::set(const unsigned int i, const Tensor<1, dim> &n, const double velocity)
   {
-    using Fields     = NodalFields<dim>;
-    double *node     = grid->fields[i];
-    double  v        = 0, increment = 0;
+    using Fields = NodalFields<dim>;
+    double *node = grid->fields[i];
+    double  v = 0, increment = 0;
     for (unsigned int d = 0; d < dim; ++d)
     {
       v += n[d] * node[Fields::velocity + d];

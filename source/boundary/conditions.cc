@@ -143,10 +143,11 @@ namespace Talus
                             Patterns::Double());
         this->add_parameter("Wall velocity", wall_text,
                             "Velocity of the wall [length/time]: functions of x, y, z, t, separated by ';'.");
-        this->add_parameter("Account time", account_time,
-                            "How long a node may use normal impulse that friction has not used, so that it sticks through "
-                            "vibrations [time]; 0: that of the step alone.",
-                            this->prm, Patterns::Double(0));
+        this->add_parameter(
+          "Account time", account_time,
+          "How long a node may use normal impulse that friction has not used, so that it sticks through "
+          "vibrations [time]; 0: that of the step alone.",
+          this->prm, Patterns::Double(0));
       }
 
       void keep(const unsigned int node, const unsigned int axis,
@@ -191,9 +192,10 @@ namespace Talus
             }
         }
         if (Utilities::MPI::max(worst, grid.communicator) > 0)
-          throw EntryError(this->get_section_name(), "Wall velocity",
-                           "a wall cannot move along its normal, it stays where the grid or the plane is. Set that component "
-                           "to 0; to push a body, take a condition of type 'velocity' on a box of nodes.");
+          throw EntryError(
+            this->get_section_name(), "Wall velocity",
+            "a wall cannot move along its normal, it stays where the grid or the plane is. Set that component "
+            "to 0; to push a body, take a condition of type 'velocity' on a box of nodes.");
       }
 
     private:
@@ -218,9 +220,9 @@ namespace Talus
             }
             if (wall.depends_on_space())
               v_wall = wall.value(grid.node_position(i), time);
-            const unsigned int axis = this->faces[f] / 2;
-            auto &contact           = this->prescribed->press(i, axis, n[axis], mu, v_wall);
-            contact.account_time    = account_time;
+            const unsigned int axis    = this->faces[f] / 2;
+            auto              &contact = this->prescribed->press(i, axis, n[axis], mu, v_wall);
+            contact.account_time       = account_time;
             if (const auto at = accounts.find(std::size_t{i} * dim + axis); at != accounts.end())
             {
               contact.account = at->second[0];

@@ -71,8 +71,8 @@ namespace Talus
     });
     if (!reason.empty())
       throw EntryError(section, entry,
-                       "cannot understand '" + shortened(expressions) + "': " + shortened(reason, 200) + ". Use " + variables +
-                         ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
+                       "cannot understand '" + shortened(expressions) + "': " + shortened(reason, 200) + ". Use " +
+                         variables + ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
   }
 
   template <int dim>

@@ -97,10 +97,11 @@ namespace Talus
       else if (starts_with(line, "end", rest))
       {
         // "End time = 1" is meant as an entry.
-        AssertThrow(rest.empty(), InputError(origin + (line.find('=') == std::string::npos ?
-                                                         ": nothing may follow 'end'." :
-                                                         ": cannot understand '" + shortened(line) +
-                                                           "'. Is 'set' missing before it? Nothing may follow 'end'.")));
+        AssertThrow(rest.empty(),
+                    InputError(origin + (line.find('=') == std::string::npos ?
+                                           ": nothing may follow 'end'." :
+                                           ": cannot understand '" + shortened(line) +
+                                             "'. Is 'set' missing before it? Nothing may follow 'end'.")));
         AssertThrow(path.size() > depth, InputError(origin + ": this 'end' closes no subsection. Remove it."));
         path.pop_back();
         opened_at.pop_back();
@@ -141,7 +142,8 @@ namespace Talus
   void Parameters::add_override(const std::string &text)
   {
     const auto equal = text.find('=');
-    AssertThrow(equal != std::string::npos, InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
+    AssertThrow(equal != std::string::npos,
+                InputError("--set \"" + shortened(text) + "\": expected \"Section/Entry = value\"."));
     const std::string key   = join(split(text.substr(0, equal)));
     const auto        known = settings.find(key);
     if (known != settings.end() && leaf(key) == "Names")

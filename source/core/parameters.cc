@@ -65,7 +65,8 @@ namespace Talus
       for (const auto &choice : choices)
         list += (list.empty() ? "" : ", ") + choice;
       throw InputError(setting->origin + ": " + describe(parameter_key(section, entry)) + ": there is no '" +
-                       shortened(setting->value) + "'." + did_you_mean(setting->value, choices) + " Choices: " + list + ".");
+                       shortened(setting->value) + "'." + did_you_mean(setting->value, choices) + " Choices: " + list +
+                       ".");
     }
     return setting->value;
   }

@@ -25,17 +25,19 @@ namespace Talus
     {
       if (begins_with(bytes, "\xff\xfe") || begins_with(bytes, "\xfe\xff"))
         return "UTF-16 text";
-      if (begins_with(bytes, "\x1f\x8b") || begins_with(bytes, "BZh") || begins_with(bytes, "\xfd" "7zXZ"))
+      if (begins_with(bytes, "\x1f\x8b") || begins_with(bytes, "BZh") ||
+          begins_with(bytes, "\xfd"
+                             "7zXZ"))
         return "a packed file";
       if (begins_with(bytes, "PK\x03\x04"))
         return "a zip archive, as spreadsheets are";
       // Every other byte of Latin text in UTF-16 is zero.
-      const std::string head   = bytes.substr(0, 64);
+      const std::string head     = bytes.substr(0, 64);
       std::size_t       zeros[2] = {0, 0};
       for (std::size_t i = 0; i < head.size(); ++i)
         zeros[i % 2] += head[i] == '\0';
-      if (head.size() > 3 && ((zeros[0] == 0 && zeros[1] + 1 >= head.size() / 2) ||
-                              (zeros[1] == 0 && zeros[0] + 1 >= head.size() / 2)))
+      if (head.size() > 3 &&
+          ((zeros[0] == 0 && zeros[1] + 1 >= head.size() / 2) || (zeros[1] == 0 && zeros[0] + 1 >= head.size() / 2)))
         return "UTF-16 text";
       for (const unsigned char byte : bytes)
         if (byte < 9 || (byte > 13 && byte < 26) || (byte > 27 && byte < 32))
@@ -97,8 +99,8 @@ namespace Talus
     struct stat       status;
     std::ifstream     in(path, std::ios::binary);
     if (stat(path.c_str(), &status) != 0)
-      problem = "cannot read " + name + ": " + std::strerror(errno) +
-                ". Check the name and the directory talus is started in.";
+      problem =
+        "cannot read " + name + ": " + std::strerror(errno) + ". Check the name and the directory talus is started in.";
     else if (S_ISDIR(status.st_mode))
       problem = "cannot read " + name + ": it is a directory. Check the name: give that of a file.";
     else if (!in)

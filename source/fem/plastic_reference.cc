@@ -16,10 +16,10 @@ namespace Talus
   namespace
   {
     // Round-off leaves about 1e-12; a looser bound would be seen where runs on several numbers of ranks are compared.
-    const double       tolerance      = 1e-10;
-    const double       line_accuracy  = 0.3;
-    const double       greatest_force = 1e140; // sums of squares are numbers
-  } // namespace
+    const double tolerance      = 1e-10;
+    const double line_accuracy  = 0.3;
+    const double greatest_force = 1e140; // sums of squares are numbers
+  }                                      // namespace
 
   template <int dim>
   PlasticReference<dim>::PlasticReference(Parameters &parameters, const std::string &section,
@@ -65,7 +65,7 @@ namespace Talus
   template <int dim>
   void PlasticReference<dim>::advance(const double time, const double full_step)
   {
-    double             step             = time - solved_time;
+    double             step              = time - solved_time;
     const unsigned int iterations_before = iterations, halvings_before = halvings;
     while (solved_time < time)
     {
@@ -82,15 +82,16 @@ namespace Talus
       step /= 2.;
       ++halvings;
       const unsigned int n_iterations = iterations - iterations_before, n_halvings = halvings - halvings_before;
-      const bool         is_shortest  = step < full_step / (1 << limits.halvings);
+      const bool         is_shortest = step < full_step / (1 << limits.halvings);
       if (is_shortest || n_iterations > limits.all_iterations || n_halvings > limits.all_halvings)
       {
         std::ostringstream text;
-        text << "The plastic reference finds no equilibrium after t = " << solved_time << (is_shortest ? ", not even" : "")
-             << " for a step of " << 2. * step << ": " << imbalance_history.back()
+        text << "The plastic reference finds no equilibrium after t = " << solved_time
+             << (is_shortest ? ", not even" : "") << " for a step of " << 2. * step << ": " << imbalance_history.back()
              << " of the forces are out of balance after " << imbalance_history.size() << " iterations (" << tolerance
              << " is wanted). The load step to t = " << time << " took " << n_iterations << " iterations and "
-             << n_halvings << " halvings until here. Soften the material less, take more 'Steps' or finer cells in section '"
+             << n_halvings
+             << " halvings until here. Soften the material less, take more 'Steps' or finer cells in section '"
              << get_section_name() << "', or end earlier.";
         throw RunError(text.str());
       }

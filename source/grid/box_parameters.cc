@@ -33,20 +33,19 @@ namespace Talus
 
   template <int dim>
   BoxGrid<dim>::BoxGrid(const std::string &section, const Communicator &communicator) :
-    BoxTriangulation<dim>(communicator),
-    Grid<dim>(section, communicator, this->p4est, this->dofs, this->cartesian), lower_corner(dim, 0.),
-    upper_corner(dim, 1.)
+    BoxTriangulation<dim>(communicator), Grid<dim>(section, communicator, this->p4est, this->dofs, this->cartesian),
+    lower_corner(dim, 0.), upper_corner(dim, 1.)
   {
     const Patterns::List numbers(Patterns::Double(), dim, dim);
-    this->add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].", this->prm,
-                  numbers);
-    this->add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].", this->prm,
-                  numbers);
+    this->add_parameter("Lower corner", lower_corner, "Corner of the box with the smallest coordinates [length].",
+                        this->prm, numbers);
+    this->add_parameter("Upper corner", upper_corner, "Corner of the box with the largest coordinates [length].",
+                        this->prm, numbers);
     this->add_parameter("Spacing", spacings,
-                  "Distance of the nodes [length]: one number, or one per direction. It must divide the box.", this->prm,
-                  Patterns::List(Patterns::Double(0), 0, dim));
+                        "Distance of the nodes [length]: one number, or one per direction. It must divide the box.",
+                        this->prm, Patterns::List(Patterns::Double(0), 0, dim));
     this->add_parameter("Cells", cell_counts, "Number of cells per direction; instead of the spacing.", this->prm,
-                  Patterns::List(Patterns::Integer(1), 0, dim));
+                        Patterns::List(Patterns::Integer(1), 0, dim));
   }
 
   template <int dim>

@@ -18,7 +18,7 @@ namespace Talus
         for (unsigned int d = 0; d < dim; ++d)
         {
           coordinate[d] = (batch.load(x[d]) - lattice.origin[d]) * lattice.inverse_h[d];
-          is_outside    = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
+          is_outside = is_outside | !(coordinate[d] >= Number(0.) & coordinate[d] < Number(lattice.n_cells[d]));
         }
         return is_outside;
       };
@@ -181,11 +181,11 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void                BoxGrid<dim>::put_on_face(const Columns &, const unsigned int) const;                   \
-  template void                BoxGrid<dim>::look(const Columns &, const unsigned int, const unsigned int,              \
-                                                  unsigned int *, Found &) const;                                      \
-  template void                BoxGrid<dim>::places(const Points &, const unsigned int *, const unsigned int,          \
-                                                    const unsigned int, unsigned int *) const;                         \
+  template void BoxGrid<dim>::put_on_face(const Columns &, const unsigned int) const;                                  \
+  template void BoxGrid<dim>::look(const Columns &, const unsigned int, const unsigned int, unsigned int *, Found &)   \
+    const;                                                                                                             \
+  template void BoxGrid<dim>::places(const Points &, const unsigned int *, const unsigned int, const unsigned int,     \
+                                     unsigned int *) const;                                                            \
   template std::vector<Leaver> BoxGrid<dim>::leavers(const Points &, const unsigned int *, const unsigned int) const;  \
   template void                BoxGrid<dim>::activate(const std::vector<char> &, const unsigned int);                  \
   template bool BoxGrid<dim>::is_active_around(const typename Lattice<dim>::Index &, const unsigned int) const;

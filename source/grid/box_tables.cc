@@ -117,7 +117,8 @@ namespace Talus
   }
 
   template <int dim>
-  void BoxGrid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs, IndexSet &known)
+  void BoxGrid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs,
+                                  IndexSet &known)
   {
     const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -172,7 +173,8 @@ namespace Talus
             table[lattice.table_index(index)] = message[i + dim];
         }
     };
-    // Who knows what is `layer` cells away from each of its own cells tells its neighbours, who then know one layer more.
+    // Who knows what is `layer` cells away from each of its own cells tells its neighbours, who then know one layer
+    // more.
     for (int layer = 1; layer < std::max(2, static_cast<int>(n_layers)); ++layer)
     {
       share(layer, 2 * layer + 1, lattice.owner);
@@ -188,8 +190,8 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void BoxGrid<dim>::number_nodes();                                                                             \
-  template void BoxGrid<dim>::fill_tables(const unsigned int);                                                            \
+  template void BoxGrid<dim>::number_nodes();                                                                          \
+  template void BoxGrid<dim>::fill_tables(const unsigned int);                                                         \
   template void BoxGrid<dim>::learn_layers(const unsigned int, std::vector<types::global_dof_index> &, IndexSet &);
   INSTANTIATE(2)
   INSTANTIATE(3)

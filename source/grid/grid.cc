@@ -8,8 +8,8 @@ namespace Talus
   Grid<dim>::Grid(const std::string &section, const Communicator &communicator,
                   parallel::TriangulationBase<dim> &triangulation, DoFHandler<dim> &dof_handler,
                   const Mapping<dim> &mapping) :
-    ParameterAcceptor(section), communicator(communicator), triangulation(triangulation), dof_handler(dof_handler),
-    mapping(mapping)
+    ParameterAcceptor(section),
+    communicator(communicator), triangulation(triangulation), dof_handler(dof_handler), mapping(mapping)
   {
   }
 

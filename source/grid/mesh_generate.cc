@@ -47,7 +47,7 @@ namespace Talus
                                const std::array<unsigned int, dim> &n_cells, const double ratio)
   {
     MeshInput<dim> mesh;
-    mesh.name                      = "generated";
+    mesh.name                   = "generated";
     unsigned int        n_nodes = 1;
     std::vector<double> x[dim];
 
@@ -66,7 +66,7 @@ namespace Talus
       mesh.positions.emplace_back();
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const unsigned int index  = v / stride[d] % (n_cells[d] + 1);
+        const unsigned int index = v / stride[d] % (n_cells[d] + 1);
         mesh.positions.back()[d] = x[d][index];
         is_corner                = is_corner && index < n_cells[d];
       }
@@ -89,7 +89,7 @@ namespace Talus
   }
 
   template MeshInput<2> generate_mesh<2>(const std::array<double, 2> &, const std::array<double, 2> &,
-                                      const std::array<unsigned int, 2> &, const double);
+                                         const std::array<unsigned int, 2> &, const double);
   template MeshInput<3> generate_mesh<3>(const std::array<double, 3> &, const std::array<double, 3> &,
-                                      const std::array<unsigned int, 3> &, const double);
+                                         const std::array<unsigned int, 3> &, const double);
 } // namespace Talus

@@ -12,7 +12,7 @@ namespace Talus
     template <int dim>
     unsigned char opposite_faces(const std::vector<typename Mesh<dim>::Mirror> &mirrors, const unsigned int set)
     {
-      unsigned int faces[dim] = {};
+      unsigned int faces[dim]       = {};
       bool         is_opposite[dim] = {};
       for (unsigned int m = 0; m < mirrors.size(); ++m)
         if (set >> m & 1)
@@ -33,7 +33,7 @@ namespace Talus
   template <int dim>
   void Mesh<dim>::mirror(const std::vector<Mirror> &mirrors)
   {
-    const unsigned int         n = n_nodes();
+    const unsigned int        n = n_nodes();
     std::vector<unsigned int> on(n, 0); // the mirrors on which a node lies, as bits
     for (unsigned int m = 0; m < mirrors.size(); ++m)
       for (unsigned int v = 0; v < n; ++v)
@@ -88,8 +88,8 @@ namespace Talus
     const unsigned int        n    = n_nodes();
     const double              unit = 1e-6 * longest_edge;
     std::vector<unsigned int> beyond(n, 0); // the mirrors beyond which a node lies, as bits
-    using Key          = std::array<long, dim>;
-    const auto key     = [unit](const Vector &x) {
+    using Key      = std::array<long, dim>;
+    const auto key = [unit](const Vector &x) {
       Key result;
       for (unsigned int d = 0; d < dim; ++d)
         result[d] = std::lround(x[d] / unit);

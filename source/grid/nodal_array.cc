@@ -21,10 +21,7 @@ namespace Talus
     values = static_cast<double *>(memory);
   }
 
-  UntouchedMemory::~UntouchedMemory()
-  {
-    munmap(values, n_bytes);
-  }
+  UntouchedMemory::~UntouchedMemory() { munmap(values, n_bytes); }
 
   void NodalExchange::reinit(const Nodes &nodes)
   {

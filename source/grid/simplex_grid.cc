@@ -18,8 +18,8 @@ namespace Talus
 
   template <int dim>
   SimplexGrid<dim>::SimplexGrid(const std::string &section, const Communicator &communicator) :
-    SimplexTriangulation<dim>(communicator),
-    Grid<dim>(section, communicator, this->partition.triangulation, this->partition.dof_handler, this->affine),
+    SimplexTriangulation<dim>(communicator), Grid<dim>(section, communicator, this->partition.triangulation,
+                                                       this->partition.dof_handler, this->affine),
     lower_corner(dim, 0.), upper_corner(dim, 1.)
   {
     const Patterns::List numbers(Patterns::Double(), dim, dim);
@@ -38,11 +38,12 @@ namespace Talus
                         "Parts of the boundary, by name or number, on which the functions of all other nodes shall "
                         "vanish, as those of P1 do: walls whose nodes conditions hold.",
                         this->prm, Patterns::List(Patterns::Anything()));
-    this->add_parameter("Slip mirrors", slip_mirrors,
-                        "Slip walls across axes beyond which velocities along the axis are opposite: parts of the "
-                        "boundary, by name or number, beyond which the mesh goes on as its mirror image, or half spaces "
-                        "('x <= 0') where it has a layer of cells whose nodes are mirror images of those before.",
-                        this->prm, Patterns::List(Patterns::Anything()));
+    this->add_parameter(
+      "Slip mirrors", slip_mirrors,
+      "Slip walls across axes beyond which velocities along the axis are opposite: parts of the "
+      "boundary, by name or number, beyond which the mesh goes on as its mirror image, or half spaces "
+      "('x <= 0') where it has a layer of cells whose nodes are mirror images of those before.",
+      this->prm, Patterns::List(Patterns::Anything()));
     this->add_parameter("No-slip mirrors", no_slip_mirrors,
                         "The same where all components are opposite: walls whose nodes are fixed.", this->prm,
                         Patterns::List(Patterns::Anything()));

@@ -28,8 +28,8 @@ namespace Talus
     const unsigned int n_owned = this->partition.n_owned_cells;
     for (unsigned int p = begin; p < end; ++p)
     {
-      const auto   x_p = point<dim>(x, p);
-      const Walk   at  = walk(mesh(), place[p], x_p.data());
+      const auto   x_p  = point<dim>(x, p);
+      const Walk   at   = walk(mesh(), place[p], x_p.data());
       unsigned int cell = at.is_found ? at.cell : this->partition.find_here(x_p.data());
       // A walk that ends at a cell of this rank has come to the boundary, any other to what this rank does not know.
       if (cell == none && at.cell < n_owned)
@@ -91,7 +91,7 @@ namespace Talus
           is_near[v] = 1;
     auto near_nodes = by_number(is_near);
     this->spread(near_nodes);
-    is_near = by_place(near_nodes);
+    is_near            = by_place(near_nodes);
     const Rings &rings = mesh().rings;
     for (unsigned int c = 0; c < n_owned; ++c)
       if (std::any_of(mesh().nodes[c].begin(), mesh().nodes[c].end(), [&](const unsigned int v) { return is_near[v]; }))
@@ -123,7 +123,7 @@ namespace Talus
   void SimplexGrid<dim>::find_open_cells()
   {
     const auto   is_active = by_place({this->is_active.begin(), this->is_active.end()});
-    const Rings &rings = mesh().rings;
+    const Rings &rings     = mesh().rings;
     for (unsigned int c = 0; c < this->partition.n_owned_cells; ++c)
       is_open[c] = std::all_of(rings.node.begin() + rings.begin[c], rings.node.begin() + rings.begin[c + 1],
                                [&](const unsigned int v) { return is_active[mesh().real(v)]; });
@@ -225,22 +225,22 @@ namespace Talus
   }
 
 #define INSTANTIATE(dim)                                                                                               \
-  template void SimplexGrid<dim>::look(const Columns &, const unsigned int, const unsigned int, unsigned int *,         \
+  template void SimplexGrid<dim>::look(const Columns &, const unsigned int, const unsigned int, unsigned int *,        \
                                        Found &) const;                                                                 \
   template void SimplexGrid<dim>::places(const Points &, const unsigned int *, const unsigned int, const unsigned int, \
                                          unsigned int *) const;                                                        \
   template std::vector<Leaver> SimplexGrid<dim>::leavers(const Points &, const unsigned int *, const unsigned int)     \
     const;                                                                                                             \
-  template void                      SimplexGrid<dim>::activate(const std::vector<char> &);                            \
-  template std::vector<char>         SimplexGrid<dim>::by_number(const std::vector<char> &) const;                     \
-  template std::vector<char>         SimplexGrid<dim>::by_place(const std::vector<char> &) const;                      \
-  template void                      SimplexGrid<dim>::find_open_cells();                                              \
-  template bool                      SimplexGrid<dim>::contains(const Tensor<1, dim> &) const;                         \
-  template std::size_t               SimplexGrid<dim>::cell_number(const Point<dim> &) const;                          \
-  template Point<dim>                SimplexGrid<dim>::unit_point(const CellIterator &, const Point<dim> &) const;     \
-  template dealii::BoundingBox<dim>  SimplexGrid<dim>::cell_box(const CellIterator &) const;                           \
-  template std::vector<bool>         SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &) const;              \
-  template BoundaryPart<dim>         SimplexGrid<dim>::boundary(const std::string &) const;
+  template void                     SimplexGrid<dim>::activate(const std::vector<char> &);                             \
+  template std::vector<char>        SimplexGrid<dim>::by_number(const std::vector<char> &) const;                      \
+  template std::vector<char>        SimplexGrid<dim>::by_place(const std::vector<char> &) const;                       \
+  template void                     SimplexGrid<dim>::find_open_cells();                                               \
+  template bool                     SimplexGrid<dim>::contains(const Tensor<1, dim> &) const;                          \
+  template std::size_t              SimplexGrid<dim>::cell_number(const Point<dim> &) const;                           \
+  template Point<dim>               SimplexGrid<dim>::unit_point(const CellIterator &, const Point<dim> &) const;      \
+  template dealii::BoundingBox<dim> SimplexGrid<dim>::cell_box(const CellIterator &) const;                            \
+  template std::vector<bool>        SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &) const;               \
+  template BoundaryPart<dim>        SimplexGrid<dim>::boundary(const std::string &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

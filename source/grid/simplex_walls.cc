@@ -82,8 +82,7 @@ namespace Talus
     if (!ends.empty())
       this->partition.mesh.mirror(ends);
     typename Mesh<dim>::Vector x{};
-    const bool                 is_complete =
-      layers.empty() || this->partition.mesh.fold(layers, this->partition.n_owned_cells, x);
+    const bool is_complete = layers.empty() || this->partition.mesh.fold(layers, this->partition.n_owned_cells, x);
     // All ranks must know of it: the first that misses an image says where.
     const auto missing = Utilities::MPI::all_gather(communicator, std::make_pair(is_complete, x));
     for (const auto &[has_all, where] : missing)
@@ -91,10 +90,11 @@ namespace Talus
       {
         Point<dim> place;
         std::copy_n(where.begin(), dim, place.begin_raw());
-        throw EntryError(this->get_section_name(), slip_mirrors.empty() ? "No-slip mirrors" : "Slip mirrors",
-                         "the node at " + to_text<dim>(place) +
-                           " has no mirror image among the nodes near it. Let the mesh be symmetric within two cells of "
-                           "the wall, or end there.");
+        throw EntryError(
+          this->get_section_name(), slip_mirrors.empty() ? "No-slip mirrors" : "Slip mirrors",
+          "the node at " + to_text<dim>(place) +
+            " has no mirror image among the nodes near it. Let the mesh be symmetric within two cells of "
+            "the wall, or end there.");
       }
   }
 
@@ -133,11 +133,11 @@ namespace Talus
 
 #define INSTANTIATE(dim)                                                                                               \
   template typename MeshInput<dim>::Group SimplexGrid<dim>::group(const std::string &) const;                          \
-  template std::vector<char>          SimplexGrid<dim>::nodes_on(const std::string &, const std::string &) const;      \
-  template void                       SimplexGrid<dim>::hold_boundaries();                                             \
-  template void                       SimplexGrid<dim>::mirror_boundaries();                                           \
-  template typename Mesh<dim>::Mirror SimplexGrid<dim>::find_mirror(const std::string &, const std::string &,          \
-                                                                    const std::vector<char> &) const;
+  template std::vector<char>              SimplexGrid<dim>::nodes_on(const std::string &, const std::string &) const;  \
+  template void                           SimplexGrid<dim>::hold_boundaries();                                         \
+  template void                           SimplexGrid<dim>::mirror_boundaries();                                       \
+  template typename Mesh<dim>::Mirror     SimplexGrid<dim>::find_mirror(const std::string &, const std::string &,      \
+                                                                        const std::vector<char> &) const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -61,7 +61,6 @@ namespace Talus
           factors.derivative[d][k] = select(is_next, derivative, factors.derivative[d][k]);
         }
       }
-
     };
 
     /**
@@ -177,8 +176,8 @@ namespace Talus
     };
 
     /**
-     * The grid goes on beyond its faces: kernels stay as they are, and the nodes beyond are folded onto those before, as
-     * the conditions there say. See Walls.
+     * The grid goes on beyond its faces: kernels stay as they are, and the nodes beyond are folded onto those before,
+     * as the conditions there say. See Walls.
      */
     template <int dim>
     class GhostNodes : public Treatment<dim>

@@ -265,8 +265,8 @@ namespace Talus
       Point<dim>          middle;
     };
 
-    const RegisterDimensions<ContactSurface, Box>      box("box", "box between two corners");
-    const RegisterDimensions<ContactSurface, Ball>     ball("ball", "sphere; a circle in 2D");
+    const RegisterDimensions<ContactSurface, Box>          box("box", "box between two corners");
+    const RegisterDimensions<ContactSurface, Ball>         ball("ball", "sphere; a circle in 2D");
     const RegisterDimensions<ContactSurface, MeshBoundary> mesh("mesh", "boundary of the grid's mesh");
     const RegisterDimensions<ContactSurface, FromFile>     file("surface", "closed surface from an STL file; polygons");
   } // namespace

@@ -32,10 +32,11 @@ namespace Talus
     add_parameter("Velocity gradient", velocity_gradient,
                   "Initial velocity gradient dv_i/dx_j row by row [1/time], for the affine transfers; empty: zero.",
                   prm, Patterns::List(Patterns::Double(), 0, dim * dim));
-    add_parameter("Deformation gradient", deformation_gradient,
-                  "Of the body as it lies at the start, dx_i/dX_j row by row [1], for laws whose stress is a function of "
-                  "it: neo-Hookean, Hooke; empty: the unit matrix.",
-                  prm, Patterns::List(Patterns::Double(), 0, dim * dim));
+    add_parameter(
+      "Deformation gradient", deformation_gradient,
+      "Of the body as it lies at the start, dx_i/dX_j row by row [1], for laws whose stress is a function of "
+      "it: neo-Hookean, Hooke; empty: the unit matrix.",
+      prm, Patterns::List(Patterns::Double(), 0, dim * dim));
     stress_kind =
       parameters.choose_from(section, "Initial stress", "none", "none|uniform|geostatic|hydrostatic",
                              "Stress before the first step: none, uniform, that of a layer or of a liquid at rest.");
@@ -113,8 +114,9 @@ namespace Talus
     if (starts_deformed())
     {
       if (!material.starts_deformed())
-        throw EntryError(get_section_name(), "Deformation gradient",
-                         "the stress of the body's material is no function of it. Use 'neo-Hookean', or 'Initial stress'.");
+        throw EntryError(
+          get_section_name(), "Deformation gradient",
+          "the stress of the body's material is no function of it. Use 'neo-Hookean', or 'Initial stress'.");
       J = determinant(initial_F());
       for (unsigned int c = 0; c < dim * dim; ++c)
         value(set.F, c) = deformation_gradient[c];

@@ -46,14 +46,14 @@ namespace Talus
   template <int dim>
   void Particles<dim>::look_at_corners(const unsigned int begin, const unsigned int end)
   {
-    using Number        = Simd<native_width>;
-    const auto &lattice = box->lattice;
+    using Number               = Simd<native_width>;
+    const auto        &lattice = box->lattice;
     const Corners<dim> corners(*this, half_edges);
     for_each_batch(begin, end, [&](const auto batch) {
-      const auto r = corners.half_edges(batch);
-      const auto x = corners.position(batch);
+      const auto r          = corners.half_edges(batch);
+      const auto x          = corners.position(batch);
       auto       is_outside = Number(1.) < Number(0.), is_far = is_outside;
-      Number     place      = 0.; // of the lowest corner, in the tables
+      Number     place = 0.; // of the lowest corner, in the tables
       for (unsigned int d = 0; d < dim; ++d)
       {
         // The farthest corner along an axis.
@@ -117,15 +117,17 @@ namespace Talus
   void Particles<dim>::check_corners_are_known()
   {
     const auto &lattice = box->lattice;
-    Corners<dim>(*this, half_edges).for_each(lattice, reach.shift, 0, this->size(), [&](const unsigned int p, const auto &index) {
-      AssertThrow(lattice.is_in_table(index) && box->coverage[lattice.table_index(index)],
-                  RunError("The domain of particle " + std::to_string(this->id[p]) + " at " +
-                           to_text<dim>(Point<dim>(this->vector(this->position, p))) +
-                           " reaches farther beyond the cells of its rank than ranks know the grid. Raise 'Layers' in " +
-                           "section 'Kernel', or use fewer ranks; domains that are stretched over several cells also " +
-                           "say that CPDI is at its end."));
-      brings_new_nodes = brings_new_nodes || !is_open[lattice.table_index(index)];
-    });
+    Corners<dim>(*this, half_edges)
+      .for_each(lattice, reach.shift, 0, this->size(), [&](const unsigned int p, const auto &index) {
+        AssertThrow(
+          lattice.is_in_table(index) && box->coverage[lattice.table_index(index)],
+          RunError("The domain of particle " + std::to_string(this->id[p]) + " at " +
+                   to_text<dim>(Point<dim>(this->vector(this->position, p))) +
+                   " reaches farther beyond the cells of its rank than ranks know the grid. Raise 'Layers' in " +
+                   "section 'Kernel', or use fewer ranks; domains that are stretched over several cells also " +
+                   "say that CPDI is at its end."));
+        brings_new_nodes = brings_new_nodes || !is_open[lattice.table_index(index)];
+      });
   }
 
 #define INSTANTIATE(dim)                                                                                               \

@@ -61,8 +61,8 @@ namespace Talus
       n_indices += body->shape->n_indices();
     this->reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
     // The handler is emptied by portions that fit into the cache.
-    constexpr unsigned int portion = 1 << 14;
-    unsigned int           n_handled  = 0;
+    constexpr unsigned int portion   = 1 << 14;
+    unsigned int           n_handled = 0;
 
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
@@ -88,8 +88,8 @@ namespace Talus
           visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
             const Point<dim> location = grid.inside_cell(x);
             body.initialize(x, volume, *materials[body.material], *this, properties);
-            handler->insert_particle(location, grid.unit_point(cell, location), body.first_id + i,
-                                  cell, make_array_view(properties));
+            handler->insert_particle(location, grid.unit_point(cell, location), body.first_id + i, cell,
+                                     make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);
             ++n_created[b];
             volume_created[b] += volume;

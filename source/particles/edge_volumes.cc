@@ -91,8 +91,8 @@ namespace Talus
           sum += std::pow(static_cast<double>(at[d] - taker[d]) / n_samples[d], 2);
         return sum;
       };
-      const double mine   = distance(own);
-      unsigned int n_best = 0;
+      const double mine    = distance(own);
+      unsigned int n_best  = 0;
       bool         is_mine = true;
       for (const Index &taker : takers)
       {

@@ -17,7 +17,7 @@ namespace Talus
     struct Pair
     {
       std::uint64_t           id     = std::numeric_limits<std::uint64_t>::max();
-      std::uint64_t           number = 0;  // of pairs with the same bodies
+      std::uint64_t           number = 0; // of pairs with the same bodies
       unsigned int            body = 0, other = 0;
       std::uint64_t           other_id = 0;
       std::array<double, dim> x        = {};
@@ -210,7 +210,7 @@ namespace Talus
       }
 
       const BoxGrid<dim> &grid;
-      NodalArray<4>    nodes; // volume, times body, times its square
+      NodalArray<4>       nodes; // volume, times body, times its square
     };
 
     /** Names of the lists that have points within a spacing and a half of x. */

@@ -209,9 +209,9 @@ namespace Talus
   void Particles<dim>::sort(const std::vector<bool> &is_gone)
   {
     ++arrangement;
-    const auto               at       = places();
-    const std::size_t        n_places = grid->n_places(), n_materials = this->material_begin.size() - 1;
-    std::vector<Key>         keys;
+    const auto        at       = places();
+    const std::size_t n_places = grid->n_places(), n_materials = this->material_begin.size() - 1;
+    std::vector<Key>  keys;
     keys.reserve(this->size());
     for (unsigned int p = 0; p < this->size(); ++p)
       if (is_gone.empty() || !is_gone[p])

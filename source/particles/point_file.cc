@@ -37,9 +37,8 @@ namespace Talus
             x[d] = table(row, d);
           points.push_back(x);
           volumes.push_back(table(row, dim));
-          AssertThrow(volumes.back() > 0,
-                      InputError(file_name + ":" + std::to_string(table.line_of(row)) +
-                                 ": the volume must be positive. Correct the last number."));
+          AssertThrow(volumes.back() > 0, InputError(file_name + ":" + std::to_string(table.line_of(row)) +
+                                                     ": the volume must be positive. Correct the last number."));
         }
         if (points.empty())
           throw EntryError(this->get_section_name(), "File",
@@ -70,7 +69,7 @@ namespace Talus
 
       bool          is_list() const override { return true; }
       std::uint64_t n_indices() const override { return points.size(); }
-      std::string  position_entry() const override { return "File"; }
+      std::string   position_entry() const override { return "File"; }
 
     private:
       std::string                                file_name;

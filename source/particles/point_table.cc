@@ -21,7 +21,8 @@ namespace Talus
     std::vector<std::string> split_at_blanks(const std::string &line)
     {
       std::vector<std::string> words;
-      for (std::size_t begin = 0, end; (begin = line.find_first_not_of(blanks, begin)) != std::string::npos; begin = end)
+      for (std::size_t begin = 0, end; (begin = line.find_first_not_of(blanks, begin)) != std::string::npos;
+           begin             = end)
       {
         end = std::min(line.find_first_of(blanks, begin), line.size());
         words.push_back(line.substr(begin, end - begin));

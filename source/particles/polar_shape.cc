@@ -137,7 +137,7 @@ namespace Talus
       {
         constexpr double margin = 1e-6; // of a particle's distance
         const double     X = x[0] - centre[0], Y = x[1] - centre[1], R = std::hypot(X, Y);
-        constexpr double turn = 2 * numbers::PI;
+        constexpr double turn  = 2 * numbers::PI;
         double           angle = std::atan2(Y, X) - start * radians;
         angle -= turn * std::floor(angle / turn);
         const double at[3] = {R - inner, angle, dim == 3 ? x[dim - 1] - centre[dim - 1] : 0.};

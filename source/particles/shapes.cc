@@ -122,7 +122,7 @@ namespace Talus
         r[along()]       = 0;
         return r.norm() < radius;
       }
-      bool is_curved(const unsigned int d) const override { return dim == 3 && d != along(); }
+      bool        is_curved(const unsigned int d) const override { return dim == 3 && d != along(); }
       std::string position_entry() const override { return "Centre"; }
 
       std::vector<std::string> face_names() const override { return {"side", "base", "top"}; }

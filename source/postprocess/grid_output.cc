@@ -86,13 +86,12 @@ namespace Talus
     }
     if (!has_all_cells)
     {
-      using Cell          = typename Triangulation<dim>::cell_iterator;
-      const auto cells    = active_cells(grid);
-      const auto from     = [&](const auto at) { return at == cells.end() ? Cell(grid.triangulation.end()) : *at; };
-      this->set_cell_selection([&](const auto &) { return from(cells.begin()); },
-                               [&](const auto &, const Cell &cell) {
-                                 return from(std::upper_bound(cells.begin(), cells.end(), cell));
-                               });
+      using Cell       = typename Triangulation<dim>::cell_iterator;
+      const auto cells = active_cells(grid);
+      const auto from  = [&](const auto at) { return at == cells.end() ? Cell(grid.triangulation.end()) : *at; };
+      this->set_cell_selection(
+        [&](const auto &) { return from(cells.begin()); },
+        [&](const auto &, const Cell &cell) { return from(std::upper_bound(cells.begin(), cells.end(), cell)); });
       this->build_patches(grid.mapping);
     }
     else

@@ -202,9 +202,10 @@ namespace Talus
 
   void leave_out(const std::vector<std::string> &names, std::vector<std::string> &chosen)
   {
-    chosen.erase(std::remove_if(chosen.begin(), chosen.end(),
-                                [&](const auto &name) { return std::find(names.begin(), names.end(), name) != names.end(); }),
-                 chosen.end());
+    chosen.erase(
+      std::remove_if(chosen.begin(), chosen.end(),
+                     [&](const auto &name) { return std::find(names.begin(), names.end(), name) != names.end(); }),
+      chosen.end());
   }
 
   template std::vector<ParticleField<2>> all_particle_fields(const WorkingSet<2> &);

@@ -89,7 +89,8 @@ namespace Talus
     {
       probes.push_back(std::make_unique<Probe<dim>>(section + "/" + name, name));
       if (!parameters.is_set(section + "/" + name, "Position"))
-        parameters.warn(EntryError(section + "/" + name, "Position", "the probe has been given no place and watches the origin."));
+        parameters.warn(
+          EntryError(section + "/" + name, "Position", "the probe has been given no place and watches the origin."));
     }
     add_parameter("Fields", field_names, "Particle fields to write into probes.csv.");
   }

@@ -44,12 +44,15 @@ namespace Talus
                              "initial velocities and body force, and errors are measured.");
     if (chosen == "none")
       return nullptr;
-    return std::unique_ptr<Verification>(new Verification(Solutions::get().make(chosen, parameters, section), communicator));
+    return std::unique_ptr<Verification>(
+      new Verification(Solutions::get().make(chosen, parameters, section), communicator));
   }
 
   template <int dim>
-  Verification<dim>::Verification(std::unique_ptr<ManufacturedSolution<dim>> solution, const Communicator &communicator) :
-    solution(std::move(solution)), communicator(communicator)
+  Verification<dim>::Verification(std::unique_ptr<ManufacturedSolution<dim>> solution,
+                                  const Communicator                        &communicator) :
+    solution(std::move(solution)),
+    communicator(communicator)
   {
   }
 

@@ -92,10 +92,11 @@ namespace Talus
         if (Utilities::MPI::max(is_held ? 1 : 0, model.grid.communicator) == 0)
         {
           warn("/Conditions", "Names",
-               sentence("the body '", model.bodies[body]->name, "' falls along ", axes[d], ", and nothing holds it: ",
-                        is_box ? "the face " : "the boundary at ", axes[d], is_upper ? "+" : "-",
-                        " of the grid has no condition. Give one with '",
-                        is_box ? "Boundary ids = " + std::to_string(2 * d + is_upper) : std::string("Boundaries"), "'."));
+               sentence("the body '", model.bodies[body]->name, "' falls along ", axes[d],
+                        ", and nothing holds it: ", is_box ? "the face " : "the boundary at ", axes[d],
+                        is_upper ? "+" : "-", " of the grid has no condition. Give one with '",
+                        is_box ? "Boundary ids = " + std::to_string(2 * d + is_upper) : std::string("Boundaries"),
+                        "'."));
           break;
         }
       }
@@ -116,9 +117,10 @@ namespace Talus
     };
     idle("/Run", "Courant number", number("/Run", "Step size") > 0, "'Step size' says how long steps are.");
     if (model.walls.has_ghosts() && parameters.value("/Transfer", "Slip projection", "false") == "true")
-      throw EntryError("/Transfer", "Slip projection",
-                       "it acts on kernels that a wall cuts off, and with 'Boundary treatment = ghost nodes' none is. Leave it "
-                       "out: ghost nodes make floors quiet themselves.");
+      throw EntryError(
+        "/Transfer", "Slip projection",
+        "it acts on kernels that a wall cuts off, and with 'Boundary treatment = ghost nodes' none is. Leave it "
+        "out: ghost nodes make floors quiet themselves.");
     const std::string transfer = parameters.value("/Transfer", "Type", "TPIC");
     for (const auto &body : model.bodies)
     {
@@ -133,8 +135,9 @@ namespace Talus
       idle(section, "Wall velocity", number(section, "Friction coefficient") == 0,
            "a wall moves along itself, and without a 'Friction coefficient' nothing follows it.");
       if (number(section, "Account time") > 0 && !model.walls.has_ghosts())
-        throw EntryError(section, "Account time",
-                         "accounts are kept where walls have ghost nodes. Set 'Boundary treatment = ghost nodes', or 0.");
+        throw EntryError(
+          section, "Account time",
+          "accounts are kept where walls have ghost nodes. Set 'Boundary treatment = ghost nodes', or 0.");
     }
   }
 

@@ -89,8 +89,8 @@ namespace Talus
   }
 
   template <int dim>
-  void EnergyWatch<dim>::compare(const Model<dim> &model, const std::string &name, const double energy, const Moment &moment,
-                                 const std::function<std::string()> &culprit)
+  void EnergyWatch<dim>::compare(const Model<dim> &model, const std::string &name, const double energy,
+                                 const Moment &moment, const std::function<std::string()> &culprit)
   {
     // Not less what damping took: where little is left, the errors of what was put in would count.
     const double available = initial_energy + body_force_work + condition_work + traction_work + contact_work;

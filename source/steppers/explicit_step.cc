@@ -16,9 +16,11 @@ namespace Talus
   template <int dim>
   Explicit<dim>::Explicit(const std::string &section) : Stepper<dim>(section)
   {
-    this->add_parameter("Courant number", courant_number, "Step size over its critical value, Eq. (37) [1]; 0: what lone particles of a fluid bear with this "
-                        "kernel and any transfer, 0.4 in 2D and 0.33 in 3D with quadratic B-splines.",
-                        this->prm, Patterns::Double());
+    this->add_parameter(
+      "Courant number", courant_number,
+      "Step size over its critical value, Eq. (37) [1]; 0: what lone particles of a fluid bear with this "
+      "kernel and any transfer, 0.4 in 2D and 0.33 in 3D with quadratic B-splines.",
+      this->prm, Patterns::Double());
     this->add_parameter("Step size", fixed_step_size, "Fixed step size [time]; 0: by the Courant number each step.",
                         this->prm, Patterns::Double(0));
     this->add_parameter("MUSL", is_musl,

@@ -69,7 +69,8 @@ namespace Talus
   }
 
   template <int dim>
-  bool FractureWatch<dim>::has_gaps(const Model<dim> &model, const unsigned int p, const Tensor<1, dim> &neighbour) const
+  bool FractureWatch<dim>::has_gaps(const Model<dim> &model, const unsigned int p,
+                                    const Tensor<1, dim> &neighbour) const
   {
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
@@ -106,9 +107,8 @@ namespace Talus
   {
     distance = 0;
     if (is_watching)
-      for_each_beyond(model, distance, [&](const unsigned int p) {
-        distance = std::max(distance, ratio(model, neighbour(model, p)));
-      });
+      for_each_beyond(model, distance,
+                      [&](const unsigned int p) { distance = std::max(distance, ratio(model, neighbour(model, p))); });
     distance = Utilities::MPI::max(distance, model.grid.communicator);
   }
 

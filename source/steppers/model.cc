@@ -95,7 +95,8 @@ namespace Talus
     for (unsigned int m = 0; m < materials.size(); ++m)
       if (f_bar.is_on && materials[m]->smoothing_speed() > 0)
         throw EntryError(get_section_name(), "F-bar",
-                         "it averages volumes, and 'J smoothing' of '" + material_names[m] + "' too. Choose one of them.");
+                         "it averages volumes, and 'J smoothing' of '" + material_names[m] +
+                           "' too. Choose one of them.");
   }
 
   template <int dim>
@@ -105,8 +106,9 @@ namespace Talus
     {
       if (transfer->reach(*kernel).at_corners && materials[body->material]->carries_volume_only())
         throw EntryError("/Kernel", "Type",
-                         "the domains of '" + body->name + "' would follow its deformation gradient, and a fluid has "
-                         "none. Take a B-spline.");
+                         "the domains of '" + body->name +
+                           "' would follow its deformation gradient, and a fluid has "
+                           "none. Take a B-spline.");
       body->shape->create(grid.spacing);
     }
     check_memory();
@@ -180,7 +182,7 @@ namespace Talus
   void Model<dim>::check_memory() const
   {
     // A body fills a third of the lattice around it at least, and particles take what they carry.
-    double n = 0, most = 0;
+    double      n = 0, most = 0;
     std::string largest;
     for (const auto &body : bodies)
     {
@@ -195,7 +197,8 @@ namespace Talus
     const double wanted = n / 3 * particles.n_columns() * sizeof(double), has = physical_memory(grid.communicator);
     std::ostringstream text;
     text << std::setprecision(3) << "the particles of all bodies, up to " << n << " of them, take " << wanted / 1e9
-         << " GB at least, and there are " << has / 1e9 << " GB of memory. Take fewer, a larger spacing or smaller bodies.";
+         << " GB at least, and there are " << has / 1e9
+         << " GB of memory. Take fewer, a larger spacing or smaller bodies.";
     if (wanted > has)
       throw EntryError(largest, "Particles per cell and direction", text.str());
   }
@@ -219,8 +222,8 @@ namespace Talus
       return value;
     };
     std::ostringstream text;
-    text << "  grid       " << grid.summary() << ", " << grid.dof_handler.n_dofs() << " nodes\n  particles  " << particles.n_global << " in "
-         << bodies.size()
+    text << "  grid       " << grid.summary() << ", " << grid.dof_handler.n_dofs() << " nodes\n  particles  "
+         << particles.n_global << " in " << bodies.size()
          << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
          << "  kernel     " << chosen("Kernel", "Type")
          << (kernel->lattice_form() ? ", boundary treatment " + chosen("Kernel", "Boundary treatment") : "")

@@ -56,8 +56,8 @@ namespace Talus
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
       return "Give the boundary there a condition, enlarge the mesh, or take smaller steps.";
-    const auto         of_face = box->nodes_on_boundary(face);
-    std::vector<bool>  is_held(model.grid.fields.n_owned(), false);
+    const auto        of_face = box->nodes_on_boundary(face);
+    std::vector<bool> is_held(model.grid.fields.n_owned(), false);
     for (const auto &condition : model.boundary.conditions)
       for (const auto &list : condition->owned_nodes())
         for (const unsigned int i : list)
@@ -79,7 +79,8 @@ namespace Talus
       return "The face " + name + " has no condition: give it one with 'Boundary ids = " + std::to_string(face) +
              "'. Enlarge the grid where material is to fly on.";
     const std::string fixed = smaller_steps();
-    return "The face " + name + " has a condition, but not everywhere, or not now, or the particle was too fast: enlarge " +
+    return "The face " + name +
+           " has a condition, but not everywhere, or not now, or the particle was too fast: enlarge " +
            "the grid, or " + (fixed.empty() ? "lower the Courant number." : "take " + fixed + ".");
   }
 

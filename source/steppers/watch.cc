@@ -45,13 +45,13 @@ namespace Talus
     this->dt     = dt;
 
     const WorkingSet<dim> &particles = model.particles;
-    x                                = particles.template components<dim>(
-      model.acceleration.is_of_initial_position() ? particles.initial_position : particles.position);
-    v                                = particles.template components<dim>(particles.velocity);
-    F                                = particles.template components<dim * dim>(particles.F);
-    grad_v                           = particles.template components<dim * dim>(particles.grad_v);
-    stress                           = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-    mass                             = particles.component(particles.mass, 0);
+    x = particles.template components<dim>(model.acceleration.is_of_initial_position() ? particles.initial_position :
+                                                                                         particles.position);
+    v = particles.template components<dim>(particles.velocity);
+    F = particles.template components<dim * dim>(particles.F);
+    grad_v = particles.template components<dim * dim>(particles.grad_v);
+    stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass   = particles.component(particles.mass, 0);
 
     b            = model.acceleration.uniform_value(time);
     signal_speed = total_mass = kinetic_energy = 0.;
@@ -189,8 +189,8 @@ namespace Talus
     if (!limit)
       return "";
     std::ostringstream text;
-    text << " Lone particles need a Courant number of at most " << std::setprecision(3) << *limit * model.material_factor()
-         << " with this kernel, transfer and material.";
+    text << " Lone particles need a Courant number of at most " << std::setprecision(3)
+         << *limit * model.material_factor() << " with this kernel, transfer and material.";
     return text.str();
   }
 

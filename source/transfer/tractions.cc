@@ -40,10 +40,12 @@ namespace Talus
     body_name =
       parameters.choose_from(section, "Body", body_names.front(), choice(body_names), "Name of the loaded body.");
     const std::string load = kind == "traction" ? "Traction" : kind == "force" ? "Force" : "Pressure";
-    for (const std::string &entry : kind == "force" ? std::vector<std::string>{load, "Position"} : std::vector<std::string>{load})
+    for (const std::string &entry :
+         kind == "force" ? std::vector<std::string>{load, "Position"} : std::vector<std::string>{load})
       if (!parameters.is_set(section, entry))
-        parameters.warn(EntryError(section, entry, entry == "Position" ? "the force has been given no place and acts at the origin." :
-                                                                         "the load is zero: it has no effect."));
+        parameters.warn(EntryError(section, entry,
+                                   entry == "Position" ? "the force has been given no place and acts at the origin." :
+                                                         "the load is zero: it has no effect."));
     if (kind == "traction")
       add_parameter("Traction", function_text,
                     "Force per initial area [stress]: functions of x, y, z, t, separated by ';'.");

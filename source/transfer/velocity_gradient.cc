@@ -22,7 +22,8 @@ namespace Talus
   {
     // Without a step size the particles stay where they are.
     Loops<dim, GradientOnly<dim>>::grid_to_particle({}, TransferArrays<dim>(particles), particles, kernel,
-                                                    is_plain ? CompiledForm<dim>() : kernel.compiled_form(), grid, grid.fields,
+                                                    is_plain ? CompiledForm<dim>() : kernel.compiled_form(), grid,
+                                                    grid.fields,
                                                     /* dt = */ 0., 0, particles.size());
   }
 

@@ -42,9 +42,11 @@ namespace
     f.initialize("1; sqrt(1 - t)" + more, "/Run", "Body force");
     check("finite until then", f.value(x, 0.75)[1] - 0.5, 1e-15);
     const std::string formula = "the formula '1; sqrt(1 - t)" + more + "' has no finite value";
-    check_error<EntryError>("no value at a time", {"/Run: Body force: " + formula, "at t = 1.5"}, [&] { f.value(x, 1.5); });
+    check_error<EntryError>("no value at a time", {"/Run: Body force: " + formula, "at t = 1.5"},
+                            [&] { f.value(x, 1.5); });
     f.initialize("1/(x - 0.1); 1" + more, "/Run", "Body force");
-    check_error<EntryError>("no value at a place", {"has no finite value at (0.1, 0.3", "at t = 2"}, [&] { f.value(x, 2); });
+    check_error<EntryError>("no value at a place", {"has no finite value at (0.1, 0.3", "at t = 2"},
+                            [&] { f.value(x, 2); });
     check_true("evaluated all the same", std::isinf(f.evaluate(x, 2)[0]));
   }
 } // namespace

@@ -154,7 +154,8 @@ void idle_entries()
 {
   const File file("idle", spring("set Turns = 3\nset Stiffness = 2\n"));
   const auto declared = Parameters::declared_by([] { Spring spring("/Springs/first"); });
-  check_true("declared by an object", std::find(declared.begin(), declared.end(), "Springs/first/Turns") != declared.end());
+  check_true("declared by an object",
+             std::find(declared.begin(), declared.end(), "Springs/first/Turns") != declared.end());
   {
     Parameters parameters(file.name);
     for (const auto &key : declared)
@@ -167,9 +168,10 @@ void idle_entries()
   Parameters parameters(file.name);
   parameters.allow("/Springs/first", "Turns", "nothing turns.");
   parameters.allow("/Springs/first", "Colour", "nothing is seen.");
-  check_true("a reason is a warning", parameters.warnings().size() == 1 &&
-                                        parameters.warnings()[0].find("entry 'Turns' in section 'Springs/first': it has no effect: nothing turns.") !=
-                                          std::string::npos);
+  check_true("a reason is a warning",
+             parameters.warnings().size() == 1 &&
+               parameters.warnings()[0].find(
+                 "entry 'Turns' in section 'Springs/first': it has no effect: nothing turns.") != std::string::npos);
   parameters.names("/Springs", "");
   check_error<InputError>("others are unknown", {"'Springs/first'"}, [&] { parameters.parse(); });
 }

@@ -67,7 +67,7 @@ namespace
     const double steps[8] = {1.5, -0.25, -1., 0., 7.999, -3.0001, 2., -0.999};
     const Number whole    = floor(Number::load(steps));
     store_integers(whole, index);
-    double       wrong    = 0;
+    double wrong = 0;
     for (int l = 0; l < width; ++l)
       wrong += (whole[l] != std::floor(steps[l])) + (index[l] != static_cast<int>(std::floor(steps[l])));
     check(name + "floor", wrong, 0.5);
@@ -138,7 +138,8 @@ namespace
 
     {
       double     error = 0;
-      const auto pairs = Number::template load_repeated<2>(numbers + 1), fours = Number::template load_repeated<4>(numbers);
+      const auto pairs = Number::template load_repeated<2>(numbers + 1),
+                 fours = Number::template load_repeated<4>(numbers);
       for (int l = 0; l < width; ++l)
         error += (pairs[l] != numbers[1 + l % 2]) + (fours[l] != numbers[l % 4]);
       if constexpr (width >= 4)

@@ -41,14 +41,40 @@ void text_files()
   check_lines("no end of the last line", "0.5 1\n2 -3", two);
   check_lines("Windows", "0.5 1\r\n2 -3\r\n\x1a", two);
   check_lines("old Mac", "0.5 1\r2 -3\r", two);
-  check_lines("byte order mark", "\xef\xbb\xbf" "0.5 1\n2 -3\n", two);
-  check_lines("no-break space and minus sign", "0.5\xc2\xa0" "1\n2\xe2\x80\xaf\xe2\x88\x92" "3\n", two);
-  check_lines("no-break space in Latin-1", "0.5\xa0" "1\n2 -3\n", two);
-  check_lines("letters stay", "Gr\xc3\xb6\xc3\x9f" "e\n", {"Gr\xc3\xb6\xc3\x9f" "e"});
+  check_lines("byte order mark",
+              "\xef\xbb\xbf"
+              "0.5 1\n2 -3\n",
+              two);
+  check_lines("no-break space and minus sign",
+              "0.5\xc2\xa0"
+              "1\n2\xe2\x80\xaf\xe2\x88\x92"
+              "3\n",
+              two);
+  check_lines("no-break space in Latin-1",
+              "0.5\xa0"
+              "1\n2 -3\n",
+              two);
+  check_lines("letters stay",
+              "Gr\xc3\xb6\xc3\x9f"
+              "e\n",
+              {"Gr\xc3\xb6\xc3\x9f"
+               "e"});
   check_lines("nothing", "", {});
-  check_problem("UTF-16 with its mark", std::string("\xff\xfe" "0\0.\0", 6), "UTF-16");
-  check_problem("UTF-16, the other order", std::string("\xfe\xff\0" "0\0.", 6), "UTF-16");
-  check_problem("UTF-16 without mark", std::string("0\0.\0" "5\0 \0", 8), "UTF-16");
+  check_problem("UTF-16 with its mark",
+                std::string("\xff\xfe"
+                            "0\0.\0",
+                            6),
+                "UTF-16");
+  check_problem("UTF-16, the other order",
+                std::string("\xfe\xff\0"
+                            "0\0.",
+                            6),
+                "UTF-16");
+  check_problem("UTF-16 without mark",
+                std::string("0\0.\0"
+                            "5\0 \0",
+                            8),
+                "UTF-16");
   check_problem("zeros", std::string("abcdefgh\0\1\2", 11), "a binary file");
   check_problem("gzip", "\x1f\x8b\x08", "a packed file");
   check_problem("spreadsheet", "PK\x03\x04", "zip archive");

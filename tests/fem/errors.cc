@@ -107,9 +107,9 @@ void errors()
     try
     {
       auto plastic = Test::make<PlasticReference<2>>(
-        Test::set("Cells", "2, 2") + Test::set("Steps", "1") + "  subsection J2\n" + Test::set("Yield stress", "1") + "  end\n" +
-        Test::conditions("floor, top", good + Test::condition("top", "3", "0.1*t; -0.2*t")));
-      plastic->limits.iterations = 1;
+        Test::set("Cells", "2, 2") + Test::set("Steps", "1") + "  subsection J2\n" + Test::set("Yield stress", "1") +
+        "  end\n" + Test::conditions("floor, top", good + Test::condition("top", "3", "0.1*t; -0.2*t")));
+      plastic->limits.iterations                                                        = 1;
       (counts_halvings ? plastic->limits.all_halvings : plastic->limits.all_iterations) = 3;
       plastic->solve(1.);
     }
@@ -117,8 +117,9 @@ void errors()
     {
       message = error.message;
     }
-    for (const std::string word : {"finds no equilibrium after t = 0 for a step of", "of the forces are out of balance after 1 iterations",
-                                   "4 iterations and 4 halvings", "take more 'Steps'"})
+    for (const std::string word :
+         {"finds no equilibrium after t = 0 for a step of", "of the forces are out of balance after 1 iterations",
+          "4 iterations and 4 halvings", "take more 'Steps'"})
       Test::check_true("bounded: " + word, message.find(word) != std::string::npos);
   }
   const auto outside = [](const Point<2> &point) {

@@ -46,7 +46,8 @@ namespace
 
     Frozen(const std::string &kernel, const std::string &transfer, const std::string &conditions,
            const std::string &material = fluid) :
-      setup(one_box<dim>(kernel, transfer, conditions, material)), particles(setup.particles)
+      setup(one_box<dim>(kernel, transfer, conditions, material)),
+      particles(setup.particles)
     {
       const auto add = [&](const unsigned int field, const unsigned int n) {
         for (unsigned int c = 0; c < n; ++c)
@@ -248,7 +249,11 @@ void lone_particles()
       frozen.place({x}, {1. / (1u << dim)});
       const double      dt   = factor * std::sqrt(limit(frozen.stencil(), transfer));
       const std::string name = std::to_string(dim) + "D, " + kernel + ", " + transfer + ", " + material.substr(11, 7);
-      check(name + ": limit of the table", dt / factor - limits[transfer == "TPIC" ? 0 : transfer == "APIC" ? 1 : 2], 6e-3);
+      check(name + ": limit of the table",
+            dt / factor - limits[transfer == "TPIC" ? 0 :
+                                 transfer == "APIC" ? 1 :
+                                                      2],
+            6e-3);
       check(name + ": below", std::max(0., frozen.radius(0.98 * dt) - 1), 1e-6);
       check_range(name + ": above", frozen.radius(1.02 * dt), 1.05, 2);
     }

@@ -54,8 +54,8 @@ void cpdi()
   const unsigned int field = Corners<dim>::add_field(set);
   set.resize(1);
 
-  double       unity = 0, position = 0, gradients = 0, identity = 0, values = 0, slopes = 0;
-  unsigned int n_small = 0, n_large = 0;
+  double                                 unity = 0, position = 0, gradients = 0, identity = 0, values = 0, slopes = 0;
+  unsigned int                           n_small = 0, n_large = 0;
   std::mt19937                           random(3);
   std::uniform_real_distribution<double> uniform(-1, 1);
   while (n_small < 300 || n_large < 20)
@@ -89,16 +89,16 @@ void cpdi()
       set.component(set.position, d)[0] = x[d];
       for (unsigned int e = 0; e < dim; ++e)
       {
-        set.component(field, dim * e + d)[0]  = r0[e][d];
+        set.component(field, dim * e + d)[0] = r0[e][d];
         set.component(set.F, dim * d + e)[0] = F[d][e];
       }
     }
     Stencil<dim> stencil;
     setup.kernel->evaluate(set, 0, 1, &stencil);
 
-    double                                                   sum = 0;
-    dealii::Tensor<1, dim>                                   mean, sum_gradient;
-    dealii::Tensor<2, dim>                                   moment;
+    double                                                            sum = 0;
+    dealii::Tensor<1, dim>                                            mean, sum_gradient;
+    dealii::Tensor<2, dim>                                            moment;
     std::map<unsigned int, std::pair<double, dealii::Tensor<1, dim>>> nodes;
     for (unsigned int k = 0; k < stencil.size; ++k)
     {

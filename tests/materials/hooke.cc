@@ -5,8 +5,8 @@ using namespace Test;
 namespace hooke
 {
   /**
-   * Uniaxial strain with nu = 0: the stress is E (a - 1), force per initial area, whatever the stretch a; its energy per
-   * initial volume E (a - 1)^2 / 2, waves run at a sqrt(E/rho_0). And the whole tensor with nu = .2.
+   * Uniaxial strain with nu = 0: the stress is E (a - 1), force per initial area, whatever the stretch a; its energy
+   * per initial volume E (a - 1)^2 / 2, waves run at a sqrt(E/rho_0). And the whole tensor with nu = .2.
    */
   void uniaxial_and_general()
   {

@@ -14,7 +14,7 @@ namespace
   template <int dim>
   struct Kernel
   {
-    std::string                                                                                  name;
+    std::string                                                                                 name;
     std::function<void(const unsigned int cell, const Coordinates<dim> &x, Stencil<dim> &list)> evaluate;
   };
 

@@ -99,8 +99,8 @@ void mirrors()
       const Mesh<dim> whole  = with_images(half, n);
       Mesh<dim>       mirror = half;
       mirror.mirror(walls(half, n));
-      const auto whole_feet = foot_coordinates(whole), feet = foot_coordinates(mirror);
-      double     error = 0, signs = 0;
+      const auto   whole_feet = foot_coordinates(whole), feet = foot_coordinates(mirror);
+      double       error = 0, signs = 0;
       unsigned int n_wrong = 0;
       const auto   compare = [&](const Stencil<dim> &expected, const Stencil<dim> &list, const Coordinates<dim> &x) {
         const auto a = by_place(expected, x), b = by_place(list, x);
@@ -114,7 +114,7 @@ void mirrors()
         // v_0 = x_0 and v_d = x_0 x_1 ... of the other walls obey these signs.
         for (unsigned int k = 0; k < list.size; ++k)
         {
-          const auto  &real = half.position[list.place[k]];
+          const auto   &real = half.position[list.place[k]];
           const double *sign = NodalFields<dim>::mirror(list.beyond[k]) + NodalFields<dim>::velocity;
           for (unsigned int d = 0; d < dim; ++d)
           {
@@ -130,7 +130,7 @@ void mirrors()
         }
       };
       for_points(half, 2, [&](const unsigned int c, const Coordinates<dim> &x) {
-        static Stencil<dim> expected, list;
+        static Stencil<dim>  expected, list;
         const MeshPoint<dim> point{c, x};
         umls<CubicWeight>(whole, 1, &point, {}, &expected);
         umls<CubicWeight>(mirror, 1, &point, {}, &list);
@@ -164,7 +164,7 @@ void folded_layers()
     for (const unsigned int v : whole.nodes[c])
       if (whole.position[v][0] < .5 - 1e-9 || whole.position[v][1] > .5 + 1e-9)
         return;
-    static Stencil<dim> expected, list;
+    static Stencil<dim>  expected, list;
     const MeshPoint<dim> point{c, x};
     umls<CubicWeight>(whole, 1, &point, {}, &expected);
     umls<CubicWeight>(mesh, 1, &point, {}, &list);

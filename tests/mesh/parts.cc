@@ -32,8 +32,8 @@ namespace
   template <int dim>
   std::map<Coordinates<dim>, double> weights(const Mesh<dim> &mesh, const unsigned int cell, const Coordinates<dim> &x)
   {
-    const auto    feet = foot_coordinates(mesh);
-    Stencil<dim> list;
+    const auto           feet = foot_coordinates(mesh);
+    Stencil<dim>         list;
     const MeshPoint<dim> point{cell, x};
     c1_umls<CubicWeight>(mesh, feet.data(), 1, &point, {}, &list);
     std::map<Coordinates<dim>, double> weights;

@@ -75,9 +75,9 @@ void generated_mesh()
   const unsigned int n[] = {5, 4, 3};
   for (unsigned int id = 0; id < 2 * dim; ++id)
   {
-    const unsigned int axis = id / 2;
-    const std::string  name = std::string(id % 2 == 0 ? "lower " : "upper ") + "xyz"[axis];
-    const auto         part = run.grid.boundary(name);
+    const unsigned int axis    = id / 2;
+    const std::string  name    = std::string(id % 2 == 0 ? "lower " : "upper ") + "xyz"[axis];
+    const auto         part    = run.grid.boundary(name);
     double             n_nodes = 1, error = 0;
     for (unsigned int d = 0; d < dim; ++d)
       n_nodes *= d == axis ? 1 : n[d];
@@ -92,24 +92,26 @@ void generated_mesh()
     }
     check(name + ": normals", max(error), 1e-14);
   }
-  check_error<InputError>("no such face", {"no boundary 'floor'", "'lower x' (0)"}, [&] { run.grid.boundary("floor"); });
+  check_error<InputError>("no such face", {"no boundary 'floor'", "'lower x' (0)"},
+                          [&] { run.grid.boundary("floor"); });
 }
 
-/** A body fills a mesh: each point becomes one particle, in the cell that holds it, on one rank; moves keep all that. */
+/** A body fills a mesh: each point becomes one particle, in the cell that holds it, on one rank; moves keep all that.
+ */
 template <int dim>
 void particles_on_a_mesh()
 {
   for (const bool is_generated : {true, false})
   {
     // Points lie on faces of generated cells as well; the plate of gmsh has a hole in the middle.
-    OnMesh<dim> run((is_generated ? box_of_simplices<dim>() : gmsh_grid<dim>()) +
-                    body_text(set("Lower corner", is_generated ? coordinates<dim>({{0.5, 0, 0}}) :
-                                                                 coordinates<dim>({{0.4, 0.05, 0.05}})) +
-                              set("Upper corner", is_generated ? coordinates<dim>({{1.5, 1, 1}}) :
-                                                                 coordinates<dim>({{0.6, 0.25, 0.25}}))) +
-                    section("Kernel", set("Type", "UMLS")));
+    OnMesh<dim> run(
+      (is_generated ? box_of_simplices<dim>() : gmsh_grid<dim>()) +
+      body_text(
+        set("Lower corner", is_generated ? coordinates<dim>({{0.5, 0, 0}}) : coordinates<dim>({{0.4, 0.05, 0.05}})) +
+        set("Upper corner", is_generated ? coordinates<dim>({{1.5, 1, 1}}) : coordinates<dim>({{0.6, 0.25, 0.25}}))) +
+      section("Kernel", set("Type", "UMLS")));
     const std::string name = is_generated ? "generated" : "gmsh";
-    const double       n    = 4; // points per axis
+    const double      n    = 4; // points per axis
     check(name + ": particles", run.particles.n_global - std::pow(n, dim), 0.5);
     double volume = 0;
     for (unsigned int p = 0; p < run.particles.size(); ++p)
@@ -124,8 +126,8 @@ void particles_on_a_mesh()
       for (unsigned int p = 0; p < run.particles.size(); ++p)
         for (unsigned int d = 0; d < dim; ++d)
         {
-          double      &x = run.particles.component(run.particles.position, d)[p];
-          const double y = x + 0.08 * hashed_jitter(round, run.particles.id[p], d);
+          double      &x     = run.particles.component(run.particles.position, d)[p];
+          const double y     = x + 0.08 * hashed_jitter(round, run.particles.id[p], d);
           const double lower = is_generated ? 0. : d == 0 ? 0.38 : 0.01;
           const double upper = is_generated ? (d == 0 ? 2. : 1.) : d == 0 ? 0.62 : 0.29;
           x                  = std::min(std::max(y, lower), upper);
@@ -147,7 +149,8 @@ void particles_on_a_mesh()
     double sum_of_ids = 0;
     for (const auto id : run.particles.id)
       sum_of_ids += id;
-    check(name + ": each is there", sum(sum_of_ids) - 0.5 * run.particles.n_global * (run.particles.n_global - 1.), 0.5);
+    check(name + ": each is there", sum(sum_of_ids) - 0.5 * run.particles.n_global * (run.particles.n_global - 1.),
+          0.5);
     if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
       check_true(name + ": particles have crossed borders", max(n_sent) > 0);
   }
@@ -161,13 +164,12 @@ void transfers_on_a_mesh()
   const std::string L = dim == 2 ? "2, -1, -1, 3" : "2, -1, 0, -1, 3, 1, -2, 0, 1";
   for (const std::string kernel : {"P1", "UMLS", "C1 UMLS"})
   {
-    OnMesh<dim> run(gmsh_grid<dim>() +
-                    box_body<dim>(0.05, 0.25, set("Velocity", v) + set("Velocity gradient", L)) +
+    OnMesh<dim> run(gmsh_grid<dim>() + box_body<dim>(0.05, 0.25, set("Velocity", v) + set("Velocity gradient", L)) +
                     section("Kernel", set("Type", kernel)) + transfer_text("TPIC"));
     run.grid.clear();
     run.transfer->particle_to_grid(run.particles, *run.kernel, run.acceleration, 0., run.grid);
     run.grid.fields.add_copies_to_owners();
-    using Fields = NodalFields<dim>;
+    using Fields                = NodalFields<dim>;
     double                 mass = 0, mass_p = 0;
     dealii::Tensor<1, dim> momentum, force;
     for (unsigned int i = 0; i < run.grid.fields.n_owned(); ++i)
@@ -192,8 +194,8 @@ void transfers_on_a_mesh()
     for (unsigned int i = 0; i < run.grid.fields.n_owned(); ++i)
       if (run.grid.fields[i][Fields::mass] > run.grid.mass_floor)
       {
-        const auto   x    = run.grid.node_position(i);
-        const double v0   = 1 + 2 * x[0] - x[1];
+        const auto   x  = run.grid.node_position(i);
+        const double v0 = 1 + 2 * x[0] - x[1];
         raise(error, run.grid.fields[i][Fields::velocity] - v0);
       }
     check(kernel + ": velocity of the nodes", max(error), 1e-9);
@@ -214,9 +216,9 @@ void transfers_on_a_mesh()
 template <int dim>
 void shares_on_a_mesh()
 {
-  const double length = dim == 2 ? 0.35 : 0.3; // a corner of the mesh, on one side of the plate's hole
-  OnMesh<dim>  run(gmsh_grid<dim>() + section("Kernel", set("Type", "P1")) +
-                  box_body<dim>(0.01, length, set("Particles per cell and direction", dim == 2 ? "16" : "12")));
+  const double              length = dim == 2 ? 0.35 : 0.3; // a corner of the mesh, on one side of the plate's hole
+  OnMesh<dim>               run(gmsh_grid<dim>() + section("Kernel", set("Type", "P1")) +
+                                box_body<dim>(0.01, length, set("Particles per cell and direction", dim == 2 ? "16" : "12")));
   std::vector<unsigned int> of_cell(run.simplices().mesh().n_cells(), 0);
   unsigned int              most = 0;
   for (unsigned int p = 0; p < run.particles.size(); ++p)
@@ -254,8 +256,8 @@ void mesh_grid_errors()
           section("Tractions", set("Names", "load") + section("load", set("Traction", "1; 0"))));
   error("number on a mesh", {"wall", "Boundary ids", "Give 'Boundaries'"},
         box_of_simplices<2>() + p1 + box_body<2>(0.5, 1) + wall(set("Boundary ids", "0")));
-  error("name on a box", {"wall", "Boundaries", "Give 'Boundary ids'"}, wall(set("Boundaries", "lower x")) +
-        section("Grid", set("Cells", "4, 4")) + box_body<2>(0.25, 0.5));
+  error("name on a box", {"wall", "Boundaries", "Give 'Boundary ids'"},
+        wall(set("Boundaries", "lower x")) + section("Grid", set("Cells", "4, 4")) + box_body<2>(0.25, 0.5));
 }
 
 #define INSTANTIATE(name)                                                                                              \

@@ -71,7 +71,7 @@ namespace
       n_wrong += begin % 8 != 0 || end < begin + mesh.rings.size(c) || end >= begin + mesh.rings.size(c) + 8;
       for (std::size_t i = begin; i < end; ++i)
       {
-        const std::size_t from = mesh.rings.begin[c] + i - begin;
+        const std::size_t from    = mesh.rings.begin[c] + i - begin;
         const bool        is_real = i - begin < mesh.rings.size(c);
         n_wrong += is_real && mesh.ring_lanes.node[i] != mesh.rings.node[from];
         n_wrong += mesh.ring_lanes.touches[i] != (is_real ? mesh.rings.touches[from] : 0);

@@ -53,7 +53,8 @@ namespace
   }
 } // namespace
 
-/** Points on all grid lines, corners and faces of the domain, as a mesher gives them: none is lost, each counts once. */
+/** Points on all grid lines, corners and faces of the domain, as a mesher gives them: none is lost, each counts once.
+ */
 template <int dim>
 void on_grid_lines()
 {
@@ -88,8 +89,9 @@ void on_faces()
 {
   for (const double origin : {0., -0.7, 4649000.3})
   {
-    Setup<dim>          setup(exact_grid<dim>(origin, 10, 0.3) + body_text(set("Shape", "ball") + set("Radius", "0.3") +
-                                                            set("Centre", coordinates<dim>({{origin + 1.5, origin + 1.5, origin + 1.5}}))));
+    Setup<dim>          setup(exact_grid<dim>(origin, 10, 0.3) +
+                              body_text(set("Shape", "ball") + set("Radius", "0.3") +
+                                        set("Centre", coordinates<dim>({{origin + 1.5, origin + 1.5, origin + 1.5}}))));
     const Lattice<dim> &lattice = setup.grid.lattice;
     const double        lower = lattice.origin[1], upper = lattice.node_position(10, 1);
     const double        tolerance = std::max(0.3e-9, 8 * std::abs(std::nextafter(upper, 1e9) - upper));
@@ -102,7 +104,7 @@ void on_faces()
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = origin + 1;
-        x[1]             = is_upper ? upper + beyond : lower - beyond;
+        x[1]               = is_upper ? upper + beyond : lower - beyond;
         const bool entered = lattice.enter(x);
         check_true(what + ": " + std::to_string(beyond) + " beyond", entered == is_near);
         if (!is_near)
@@ -117,7 +119,8 @@ void on_faces()
       for (unsigned int p = 0; p < setup.particles.size(); ++p)
         setup.particles.component(setup.particles.position, 1)[p] = p % 2 == 0 ? upper + beyond : lower - beyond;
       setup.particles.relocate();
-      const bool has_left = Utilities::MPI::max(setup.particles.outside != setup.particles.none ? 1 : 0, MPI_COMM_WORLD);
+      const bool has_left =
+        Utilities::MPI::max(setup.particles.outside != setup.particles.none ? 1 : 0, MPI_COMM_WORLD);
       check_true(what + ": moved beyond a face", has_left == (beyond > tolerance));
       if (has_left)
         continue;

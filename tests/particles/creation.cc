@@ -262,7 +262,8 @@ void hydrostatic()
   check("stress and density", error, 1e-13);
 }
 
-/** A body that starts compressed by .8 in all directions of the plane or of space: mass, F and stress in closed form. */
+/** A body that starts compressed by .8 in all directions of the plane or of space: mass, F and stress in closed form.
+ */
 template <int dim>
 void deformed()
 {

@@ -40,9 +40,9 @@ namespace
 template <int dim>
 void edge_volumes()
 {
-  const double     pi = numbers::PI;
-  Point<dim>       centre;
-  const double     place[3] = {1.01, 0.97, 1.02};
+  const double pi = numbers::PI;
+  Point<dim>   centre;
+  const double place[3] = {1.01, 0.97, 1.02};
   for (unsigned int d = 0; d < dim; ++d)
     centre[d] = place[d];
   double greatest = 0, eccentric = 0, whole = 0;
@@ -58,9 +58,11 @@ void edge_volumes()
         raise(greatest, m.first / V - 1);
         if (offset == 0)
           raise(eccentric, m.second.norm() / (V * R));
-        Setup<dim> boxes(edge_text<dim>(shifted_ball<dim>(R, {{offset, -offset / 2, 0}}, more + set("Edge volumes", "whole"))));
+        Setup<dim> boxes(
+          edge_text<dim>(shifted_ball<dim>(R, {{offset, -offset / 2, 0}}, more + set("Edge volumes", "whole"))));
         raise(whole, moments(boxes, centre).first / V - 1);
-        check_true("the same particles, radius " + std::to_string(r), setup.particles.n_global == boxes.particles.n_global);
+        check_true("the same particles, radius " + std::to_string(r),
+                   setup.particles.n_global == boxes.particles.n_global);
         if (dim == 3 && n == 2)
         {
           const std::string base = set("Shape", "cylinder") + set("Centre", "1.01, 0.97, 0.3") + set("Axis", "z") +

@@ -104,8 +104,8 @@ namespace
   {
     OnGrid<dim>        run(block<dim>(10, type));
     auto              &set = run.particles;
-    const unsigned int v   = set.fields[set.velocity].first, x = set.fields[set.position].first;
-    const auto         n   = set.n_global;
+    const unsigned int v = set.fields[set.velocity].first, x = set.fields[set.position].first;
+    const auto         n       = set.n_global;
     auto              &handler = set.home();
     for (auto particle = handler.begin(); particle != handler.end(); ++particle)
       particle->get_properties()[v] = 7. + particle->get_id();

@@ -18,7 +18,8 @@ namespace
   }
 
   template <int dim>
-  std::string box_between(const std::array<double, 3> &lower, const std::array<double, 3> &upper, const std::string &more = "")
+  std::string box_between(const std::array<double, 3> &lower, const std::array<double, 3> &upper,
+                          const std::string &more = "")
   {
     return set("Lower corner", coordinates<dim>(lower)) + set("Upper corner", coordinates<dim>(upper)) + more;
   }
@@ -35,7 +36,7 @@ namespace
   {
     const std::string path = name + "_" + std::to_string(dim) + "_" +
                              std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".txt";
-    std::ofstream     file(path);
+    std::ofstream file(path);
     for (unsigned int k = 0; k < (dim == 2 ? n * n : n * n * n); ++k)
     {
       for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= n)
@@ -67,16 +68,19 @@ void overlaps()
 {
   const std::string first = box_between<dim>({{0.25, 0.25, 0.25}}, {{1, 1, 1}});
   refused<dim>("the same box", first, first, "'a' and 'b' overlap");
-  refused<dim>("a box a row deep in another", first, box_between<dim>({{0.9375, 0.25, 0.25}}, {{1.5, 1, 1}}), "overlap");
-  refused<dim>("a box in another", first, box_between<dim>({{0.5, 0.5, 0.5}}, {{0.75, 0.75, 0.75}}), "overlap");
-  refused<dim>("shifted by half a row", first,
-               box_between<dim>({{0.25, 0.25, 0.25}}, {{1, 1, 1}}, set("Lattice offset", coordinates<dim>({{0.5, 0.5, 0.5}}))),
+  refused<dim>("a box a row deep in another", first, box_between<dim>({{0.9375, 0.25, 0.25}}, {{1.5, 1, 1}}),
                "overlap");
-  refused<dim>("a ball in a box", box_between<dim>({{0.25, 0.25, 0.25}}, {{1.5, 1.5, 1.5}}), ball_at<dim>(1, 0.25), "overlap");
+  refused<dim>("a box in another", first, box_between<dim>({{0.5, 0.5, 0.5}}, {{0.75, 0.75, 0.75}}), "overlap");
+  refused<dim>(
+    "shifted by half a row", first,
+    box_between<dim>({{0.25, 0.25, 0.25}}, {{1, 1, 1}}, set("Lattice offset", coordinates<dim>({{0.5, 0.5, 0.5}}))),
+    "overlap");
+  refused<dim>("a ball in a box", box_between<dim>({{0.25, 0.25, 0.25}}, {{1.5, 1.5, 1.5}}), ball_at<dim>(1, 0.25),
+               "overlap");
   refused<dim>("two balls", ball_at<dim>(0.75, 0.4), ball_at<dim>(1.25, 0.4), "overlap");
   refused<dim>("points in a box", first, list_of_points<dim>("in_a_box", 0.75, 4, 0.1), "overlap");
-  refused<dim>("lists of points", list_of_points<dim>("list_a", 0.5, 8, 0.0625), list_of_points<dim>("list_b", 0.53125, 8, 0.0625),
-               "-fold");
+  refused<dim>("lists of points", list_of_points<dim>("list_a", 0.5, 8, 0.0625),
+               list_of_points<dim>("list_b", 0.53125, 8, 0.0625), "-fold");
   refused<dim>("lists of points at the same places", list_of_points<dim>("list_c", 0.5, 8, 0.0625),
                list_of_points<dim>("list_d", 0.5, 8, 0.0625), "lie at the same place");
 
@@ -91,7 +95,8 @@ void overlaps()
              list_of_points<dim>("list_f", 1, 8, 0.0625));
   for (const std::string name : {"in_a_box", "list_a", "list_b", "list_c", "list_d", "list_e", "list_f"})
     std::remove((name + "_" + std::to_string(dim) + "_" +
-                 std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".txt").c_str());
+                 std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".txt")
+                  .c_str());
 }
 
 #define INSTANTIATE(name)                                                                                              \

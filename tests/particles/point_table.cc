@@ -40,7 +40,8 @@ void point_table()
   const auto error = [](const std::string &what, const std::vector<std::string> &lines, const std::string &message) {
     check_error<InputError>(what, {message}, [&] { read(lines); });
   };
-  error("names in another order", {"volume x y", "1 2 3"}, "file:1: the columns are called 'volume x y', but are read as 'x y volume'");
+  error("names in another order", {"volume x y", "1 2 3"},
+        "file:1: the columns are called 'volume x y', but are read as 'x y volume'");
   error("names twice", {"x y volume", "x y volume"}, "file:2: 'x' is not a finite number");
   error("decimal commas", {"0,31 0,31 0,0025"}, "file:1: '0,31' is not a number. Write decimal points");
   error("decimal commas and semicolons", {"0,31;0,31;0,0025"}, "Write decimal points");

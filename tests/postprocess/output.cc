@@ -238,11 +238,11 @@ namespace
     check_true("nodes have their values in " + std::to_string(dim) + "D", error == 0);
 
     // A body in a corner: the cells that a particle may reach in its next step are there, and few others.
-    const auto        sum  = [](const double value) { return Utilities::MPI::sum(value, MPI_COMM_WORLD); };
-    const std::string name = std::to_string(dim) + "D: ";
+    const auto        sum   = [](const double value) { return Utilities::MPI::sum(value, MPI_COMM_WORLD); };
+    const std::string name  = std::to_string(dim) + "D: ";
     const double      n_all = sum(data.get_patches().size());
     run.grid.activate(run.particles.used_places());
-    Visible<GridOutput<dim>> near_material(run.grid), all(run.grid, true);
+    Visible<GridOutput<dim>>          near_material(run.grid), all(run.grid, true);
     std::set<std::array<double, dim>> centers;
     const auto                        key = [](const Point<dim> &x) {
       std::array<double, dim> result;
@@ -259,8 +259,8 @@ namespace
       {
         bool holds_particle = false;
         for (unsigned int p = 0; p < run.particles.size(); ++p)
-          holds_particle = holds_particle ||
-                           cell->bounding_box().point_inside(Point<dim>(run.particles.vector(run.particles.position, p)));
+          holds_particle = holds_particle || cell->bounding_box().point_inside(
+                                               Point<dim>(run.particles.vector(run.particles.position, p)));
         missing += holds_particle && centers.count(key(cell->center())) == 0;
         ++n_cells;
       }

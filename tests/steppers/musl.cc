@@ -19,15 +19,15 @@ namespace
                        const std::string &treatment = "")
   {
     return grid_text<dim>() +
-           section("Kernel", set("Type", kernel) + (treatment.empty() ? "" : set("Boundary treatment", treatment))) + section("Transfer", set("Type", transfer)) +
-           section("Run", more) +
+           section("Kernel", set("Type", kernel) + (treatment.empty() ? "" : set("Boundary treatment", treatment))) +
+           section("Transfer", set("Type", transfer)) + section("Run", more) +
            body_text(set("Lower corner", coordinates<dim>(lower)) + set("Upper corner", coordinates<dim>(upper)) +
                      set("Jitter", "0.3"));
   }
 
   /**
-   * Sums of all ranks at nodes, which their places in the grid tell apart: mass, momentum. Nodes beyond no-slip walls are
-   * those before them with the other sign, on both ways.
+   * Sums of all ranks at nodes, which their places in the grid tell apart: mass, momentum. Nodes beyond no-slip walls
+   * are those before them with the other sign, on both ways.
    */
   template <int dim>
   class NodeSums

@@ -55,7 +55,8 @@ void courant_numbers()
   look("cubic B-spline", "FLIP", "", dim == 2 ? 0.56 : 0.46, false);
   look("uGIMP", "PIC", "", dim == 2 ? 0.32 : 0.26, false);
   look("linear", "FLIP", "", dim == 2 ? 0.4 : 0.33, false);
-  // A Poisson's ratio of .2 bears sqrt(2/1.25) and sqrt(3/1.5) times more than a fluid: FLIP .516, .471, APIC .632, .577.
+  // A Poisson's ratio of .2 bears sqrt(2/1.25) and sqrt(3/1.5) times more than a fluid: FLIP .516, .471, APIC .632,
+  // .577.
   look("quadratic B-spline", "FLIP", dim == 2 ? "0.51" : "0.46", dim == 2 ? 0.51 : 0.46, false);
   look("quadratic B-spline", "FLIP", dim == 2 ? "0.53" : "0.48", dim == 2 ? 0.53 : 0.48, true);
   look("quadratic B-spline", "TPIC", "0.55", 0.55, false);

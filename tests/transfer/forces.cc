@@ -125,8 +125,8 @@ void motion()
       for (unsigned int k = 0; k < stencils[p].size; ++k)
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
-            L[d][e] +=
-              setup.grid.fields.at_place(stencils[p].place[k])[NodalFields<dim>::velocity + d] * stencils[p].gradient[e][k];
+            L[d][e] += setup.grid.fields.at_place(stencils[p].place[k])[NodalFields<dim>::velocity + d] *
+                       stencils[p].gradient[e][k];
       raise(gradient_error, (matrix(setup, setup.particles.grad_v, p) - L).norm() / L.norm());
     }
     check(transfer + ": position", x_error, 1e-12); // round-off of x over dt
@@ -177,7 +177,7 @@ void nodal_force()
           for (unsigned int d = 0; d < dim; ++d)
             gradient[d] = stencil.gradient[d][k];
           force[setup.node(stencil, k)] += particles.component(particles.mass, 0)[p] * stencil.weight[k] * a -
-                                    particles.component(particles.volume, 0)[p] * (sigma * gradient);
+                                           particles.component(particles.volume, 0)[p] * (sigma * gradient);
         }
       }
       double error = 0, largest = 0;

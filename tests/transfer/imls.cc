@@ -56,7 +56,7 @@ namespace
   template <unsigned int order>
   double moments(const std::vector<double> &z, const std::vector<double> &v)
   {
-    using Basis = ImlsBasis<1, order>;
+    using Basis                = ImlsBasis<1, order>;
     double M[Basis::n_moments] = {}, R[Basis::n] = {};
     for (unsigned int k = 0; k < z.size(); ++k)
     {
@@ -124,13 +124,14 @@ void imls_at_a_node()
   check_range("order of the quadratic basis", std::log2(error_of_sine<2>(20) / error_of_sine<2>(160)) / 3, 3.3, 3.7);
 }
 
-/** On a lattice, with data anywhere: polynomials of the basis are exact at all nodes that have enough data, at faces too. */
+/** On a lattice, with data anywhere: polynomials of the basis are exact at all nodes that have enough data, at faces
+ * too. */
 template <int dim>
 void imls_on_a_lattice()
 {
-  Setup<dim>                             setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
-  const auto                            &lattice = setup.grid.lattice;
-  std::mt19937                           random(7);
+  Setup<dim>   setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
+  const auto  &lattice = setup.grid.lattice;
+  std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   Imls<dim, 1>                           linear;
   Imls<dim, 2>                           quadratic;
@@ -180,9 +181,9 @@ void imls_on_a_lattice()
 template <int dim>
 void imls_domains()
 {
-  Setup<dim>                             setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
-  const auto                            &lattice = setup.grid.lattice;
-  std::mt19937                           random(11);
+  Setup<dim>   setup(skewed_grid<dim>({{5, 4, 3}}) + section("Kernel", set("Type", "cubic B-spline")));
+  const auto  &lattice = setup.grid.lattice;
+  std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0, 1);
   constexpr unsigned int                 n_points = 1 + (1u << dim);
   ImlsDomains<dim, n_points>             domains;
@@ -205,7 +206,7 @@ void imls_domains()
           domains.gradient[d][e].set(l, uniform(random));
       }
     // Only what lies in this rank's cells, of which it knows all nodes around.
-    const unsigned int size = 1 + repetition % native_width;
+    const unsigned int size     = 1 + repetition % native_width;
     bool               is_local = true;
     for (unsigned int l = 0; l < native_width; ++l)
       for (unsigned int q = 0; q < n_points; ++q)
@@ -213,7 +214,8 @@ void imls_domains()
         typename Lattice<dim>::Index index;
         for (unsigned int d = 0; d < dim; ++d)
           index[d] = std::min(static_cast<int>(domains.point[q][d][l]), lattice.n_cells[d] - 1);
-        is_local = is_local && lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
+        is_local =
+          is_local && lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
       }
     if (!is_local)
       continue;

@@ -196,10 +196,10 @@ namespace Talus
     std::vector<double>                    positions; // of their planes [length]
     std::vector<double>                    lower, upper;
     std::vector<double>                    start_time, end_time; // one number or none
-    bool                                   is_box = true; // the grid
-    double                                 dt   = 0;
-    Grid<dim>                             *grid = nullptr;
-    HeldComponents<dim>                   *held = nullptr;
+    bool                                   is_box = true;        // the grid
+    double                                 dt     = 0;
+    Grid<dim>                             *grid   = nullptr;
+    HeldComponents<dim>                   *held   = nullptr;
   };
 
   /** The conditions of a run, applied in the order of the list, and the damping of what they leave free. */

@@ -103,11 +103,11 @@ namespace Talus
     /** Whether an entry is of an object that the file lists and `--set` does not. */
     bool is_left_out(const std::string &key) const;
 
-    std::map<std::string, Setting>     settings;   // by "Section/Subsection/Entry"
-    std::map<std::string, std::string> sections;   // where each was opened
-    std::vector<std::string>           open_files; // being scanned, each included by the one before
+    std::map<std::string, Setting>     settings;      // by "Section/Subsection/Entry"
+    std::map<std::string, std::string> sections;      // where each was opened
+    std::vector<std::string>           open_files;    // being scanned, each included by the one before
     std::map<std::string, std::string> names_of_file; // `Names` that `--set` has replaced, by section
-    std::map<std::string, std::string> idle;       // entries that nothing reads, and why that may surprise
+    std::map<std::string, std::string> idle;          // entries that nothing reads, and why that may surprise
     std::vector<std::string>           notes;
     std::string                        file_name;
   };

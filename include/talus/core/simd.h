@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 #ifdef __SSE2__
-#  include <immintrin.h>
+#include <immintrin.h>
 #endif
 
 namespace Talus
@@ -60,13 +60,13 @@ namespace Talus
         result[l] = x[l % count];
     }
 #ifdef __SSE2__
-    inline bool any_lane(const Register<2>::Integer &mask) { return _mm_movemask_pd((__m128d)mask) != 0; }
+    inline bool any_lane(const Register<2>::Integer &mask) { return _mm_movemask_pd((__m128d) mask) != 0; }
 #endif
 #ifdef __SSE4_1__
     inline Register<2>::Double floor_lanes(const Register<2>::Double x) { return _mm_floor_pd(x); }
 #endif
 #ifdef __AVX__
-    inline bool                any_lane(const Register<4>::Integer &mask) { return _mm256_movemask_pd((__m256d)mask) != 0; }
+    inline bool any_lane(const Register<4>::Integer &mask) { return _mm256_movemask_pd((__m256d) mask) != 0; }
     inline Register<4>::Double floor_lanes(const Register<4>::Double x) { return _mm256_floor_pd(x); }
 #endif
 #ifdef __AVX__
@@ -97,7 +97,7 @@ namespace Talus
 #ifdef __AVX512F__
     inline bool any_lane(const Register<8>::Integer &mask)
     {
-      return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+      return _mm512_test_epi64_mask((__m512i) mask, (__m512i) mask) != 0;
     }
     inline Register<8>::Double floor_lanes(const Register<8>::Double x)
     {
@@ -205,10 +205,7 @@ namespace Talus
     }
 
     /** The first four lanes, of more. */
-    Simd<4> first_four() const
-    {
-      return Simd<4>::load(data());
-    }
+    Simd<4> first_four() const { return Simd<4>::load(data()); }
 
     /** With other numbers in the first four lanes, of more. */
     Simd with_first_four(const Simd<4> &x) const

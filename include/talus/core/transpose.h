@@ -18,7 +18,8 @@ namespace Talus
         return Simd<width>::load(x.data() + block * width).part[0];
     }
     template <int width, int n>
-    [[gnu::always_inline]] inline void set_part(Simd<n> &x, const int block, const typename Register<width>::Double &part)
+    [[gnu::always_inline]] inline void set_part(Simd<n> &x, const int block,
+                                                const typename Register<width>::Double &part)
     {
       if constexpr (Simd<n>::n_part == width)
         x.part[block] = part;

@@ -50,11 +50,11 @@ namespace Talus
 
     void create(const CellWeight &weight, const Reach &reach) override;
 
-    std::size_t         n_places() const override { return lattice.node.size(); }
-    void                look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
-                             Found &found) const override;
-    void                places(const Points &x, const unsigned int *place, const unsigned int begin,
-                               const unsigned int end, unsigned int *result) const override;
+    std::size_t n_places() const override { return lattice.node.size(); }
+    void        look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+                     Found &found) const override;
+    void        places(const Points &x, const unsigned int *place, const unsigned int begin, const unsigned int end,
+                       unsigned int *result) const override;
     std::vector<Leaver> leavers(const Points &x, const unsigned int *place, const unsigned int n) const override;
     void                activate(const std::vector<char> &is_used) override { activate(is_used, reach.n); }
     bool                is_active_around(const unsigned int place) const override
@@ -102,7 +102,8 @@ namespace Talus
     std::vector<char>                         coverage;   // places from which on all nodes within reach are known
 
   private:
-    /** Throws EntryError where the cells need more memory than there is, and says what much of it they need. Collective. */
+    /** Throws EntryError where the cells need more memory than there is, and says what much of it they need.
+     * Collective. */
     void check_memory() const;
 
     void create_triangulation(const CellWeight &weight);

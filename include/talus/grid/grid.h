@@ -111,12 +111,13 @@ namespace Talus
     virtual dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const = 0;
 
     /**
-     * Puts x on the faces of the domain from which round-off has taken it. False where x lies farther out, or where this
-     * rank knows no cell that holds it.
+     * Puts x on the faces of the domain from which round-off has taken it. False where x lies farther out, or where
+     * this rank knows no cell that holds it.
      */
     virtual bool enter(dealii::Tensor<1, dim> &x) const = 0;
 
-    /** The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut. Moves x as enter(). */
+    /** The share of a particle at `x` that lies in the domain, for a body that the domain's faces cut. Moves x as
+     * enter(). */
     virtual double share_inside(dealii::Point<dim> &x) const = 0;
 
     /** Whether points lie in the domain, each rank asks for its own. Collective. */
@@ -195,7 +196,8 @@ namespace Talus
     /** Sets marks of local nodes that any rank has set. Collective. */
     void spread(std::vector<char> &of_nodes);
 
-    /** Makes active, and no others, the nodes on which `is_reached`, of each local node, holds on any rank. Collective. */
+    /** Makes active, and no others, the nodes on which `is_reached`, of each local node, holds on any rank. Collective.
+     */
     void activate_nodes(std::vector<char> is_reached);
 
     void activate_all();

@@ -64,8 +64,8 @@ namespace Talus
     double node_position(const int index, const unsigned int d) const { return origin[d] + index * h[d]; }
 
     /**
-     * True where the lattice coordinate along `d` lies in the domain. The upper face belongs to it: enter() puts what is
-     * on it into the last cell.
+     * True where the lattice coordinate along `d` lies in the domain. The upper face belongs to it: enter() puts what
+     * is on it into the last cell.
      */
     bool is_inside(const double coordinate, const unsigned int d) const
     {
@@ -79,7 +79,8 @@ namespace Talus
       return x >= lower - tolerance && x <= upper + tolerance;
     }
 
-    /** How far beyond a face a position is still on it, by round-off: 1e-9 spacings, or the last 3 bits of it [length]. */
+    /** How far beyond a face a position is still on it, by round-off: 1e-9 spacings, or the last 3 bits of it [length].
+     */
     double face_tolerance(const unsigned int d) const
     {
       const double largest = std::max(std::abs(origin[d]), std::abs(node_position(n_cells[d], d)));

@@ -20,8 +20,8 @@ namespace Talus
   };
 
   /**
-   * The same for loops over registers: lists are filled up to whole ones of 8 by their first node, which touches nothing
-   * there, and positions lie side by side for each axis.
+   * The same for loops over registers: lists are filled up to whole ones of 8 by their first node, which touches
+   * nothing there, and positions lie side by side for each axis.
    */
   template <int dim>
   struct RingLanes
@@ -77,9 +77,9 @@ namespace Talus
     };
 
     /**
-     * Completes the rings of cells at these walls by nodes beyond: images of the nodes joined to a vertex on a wall, and
-     * where walls meet, images of images. The mesh ends at the walls as before, particles never come there.
-     * Test: tests/mesh/mirrors.cc.
+     * Completes the rings of cells at these walls by nodes beyond: images of the nodes joined to a vertex on a wall,
+     * and where walls meet, images of images. The mesh ends at the walls as before, particles never come there. Test:
+     * tests/mesh/mirrors.cc.
      */
     void mirror(const std::vector<Mirror> &mirrors);
 
@@ -110,7 +110,7 @@ namespace Talus
 
     std::vector<Vector> position; // of the nodes, then of the images [length]
     std::vector<Image>  images;
-    std::vector<double> size;     // of a node: the longest edge at it [length]
+    std::vector<double> size; // of a node: the longest edge at it [length]
 
     std::vector<Corners>      nodes;
     std::vector<Corners>      neighbours; // the cell beyond the face opposite to a vertex, or `missing`

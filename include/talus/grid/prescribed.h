@@ -25,8 +25,8 @@ namespace Talus
       dealii::Tensor<1, dim> velocity;        // of the wall [length/time]
       unsigned int           condition = nobody;
 
-      // Normal impulse that friction has not used yet, how long it stays, and the mean of what there is in a step; after
-      // the step what they have become. Walls::press() says what for.
+      // Normal impulse that friction has not used yet, how long it stays, and the mean of what there is in a step;
+      // after the step what they have become. Walls::press() says what for.
       double account_time = 0;      // 0: there is no account [time]
       double account = 0, mean = 0; // [momentum]
 

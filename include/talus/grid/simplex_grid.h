@@ -42,12 +42,12 @@ namespace Talus
 
     void create(const CellWeight &weight, const Reach &reach) override;
 
-    bool                keeps_places() const override { return true; }
-    std::size_t         n_places() const override { return mesh().n_cells(); }
-    void                look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
-                             Found &found) const override;
-    void                places(const Points &x, const unsigned int *place, const unsigned int begin,
-                               const unsigned int end, unsigned int *result) const override;
+    bool        keeps_places() const override { return true; }
+    std::size_t n_places() const override { return mesh().n_cells(); }
+    void        look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
+                     Found &found) const override;
+    void        places(const Points &x, const unsigned int *place, const unsigned int begin, const unsigned int end,
+                       unsigned int *result) const override;
     std::vector<Leaver> leavers(const Points &x, const unsigned int *place, const unsigned int n) const override;
     void                activate(const std::vector<char> &is_used) override;
     bool                is_active_around(const unsigned int place) const override { return is_open[place] != 0; }
@@ -89,13 +89,13 @@ namespace Talus
 
     typename Mesh<dim>::Mirror find_mirror(const std::string &name, const std::string &entry,
                                            const std::vector<char> &is_on) const;
-    void           number_nodes();
+    void                       number_nodes();
 
     /** Marks of nodes in the order of the nodes' numbers, from those in the order of the mesh, and the other way. */
     std::vector<char> by_number(const std::vector<char> &of_places) const;
     std::vector<char> by_place(const std::vector<char> &of_nodes) const;
 
-    void           find_extent();
+    void find_extent();
 
     /** Cells of this rank all of whose stencil's nodes are active. */
     void find_open_cells();

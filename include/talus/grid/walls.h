@@ -106,10 +106,10 @@ namespace Talus
     {
       unsigned int           real, axis;
       double                 outward;
-      bool                   acts = false;
+      bool                   acts    = false;
       double                 account = 0, mean = 0; // after this step [momentum]
       std::array<bool, dim>  fixes{};               // components
-      dealii::Tensor<1, dim> load;    // impulse of sliding friction on the wall [momentum]
+      dealii::Tensor<1, dim> load;                  // impulse of sliding friction on the wall [momentum]
     };
 
     bool is_near_face(const Index &index) const;
@@ -145,11 +145,11 @@ namespace Talus
     void assemble_block(const unsigned int c, const Block &block);
     void solve_block(const unsigned int c, const unsigned int block, std::vector<double> &v);
 
-    void   find_presses();
+    void find_presses();
 
     /**
-     * Friction of one node: what sticking would take of its tangential momentum, if mu times the normal impulse J of the
-     * step allows it; else that against the motion.
+     * Friction of one node: what sticking would take of its tangential momentum, if mu times the normal impulse J of
+     * the step allows it; else that against the motion.
      *
      * With an account, A <- (1 - dt/tau) A + J less what friction uses over mu, J_mean <- J_mean + dt/tau (J - J_mean),
      * it is mu min(A, max(J, 10 J_mean)) that allows it, also in a step in which the node does not press, and the node

@@ -99,12 +99,13 @@ namespace Talus
         stencil.has_images = found.has_images;
         for (unsigned int d = 0; d < dim; ++d)
           stencil.is_at_slip_wall[d] = lane(found.is_at_slip_wall[d], l);
-        for_each_node(*lattice, found, l, [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
-          add(place, beyond, k, found.value[i].data()[l]);
-          for (unsigned int d = 0; d < dim; ++d)
-            stencil.gradient[d][stencil.size] = found.gradient[d][i].data()[l];
-          ++stencil.size;
-        });
+        for_each_node(*lattice, found, l,
+                      [&](const unsigned int i, const auto *k, const auto place, const auto beyond) {
+                        add(place, beyond, k, found.value[i].data()[l]);
+                        for (unsigned int d = 0; d < dim; ++d)
+                          stencil.gradient[d][stencil.size] = found.gradient[d][i].data()[l];
+                        ++stencil.size;
+                      });
         return;
       }
       stencil.is_at_slip_wall.fill(false);

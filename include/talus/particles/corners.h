@@ -25,8 +25,7 @@ namespace Talus
 
     Corners(const WorkingSet<dim> &particles, const unsigned int field) :
       x(particles.template components<dim>(particles.position)),
-      F(particles.template components<dim * dim>(particles.F)),
-      r0(particles.template components<dim * dim>(field))
+      F(particles.template components<dim * dim>(particles.F)), r0(particles.template components<dim * dim>(field))
     {
     }
 
@@ -60,8 +59,8 @@ namespace Talus
     {
       Vector result;
       for (unsigned int d = 0; d < dim; ++d)
-        result[d] = min(max((point[d] - lattice.origin[d]) * lattice.inverse_h[d], Number(0.)),
-                        Number(1. * lattice.n_cells[d]));
+        result[d] =
+          min(max((point[d] - lattice.origin[d]) * lattice.inverse_h[d], Number(0.)), Number(1. * lattice.n_cells[d]));
       return result;
     }
 

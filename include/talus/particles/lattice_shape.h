@@ -13,10 +13,10 @@ namespace Talus
    * on request. A point's index is its lexicographic lattice index and its jitter
    * a hash of (seed, index, axis), so that neither depends on the number of ranks.
    *
-   * Flat shapes are shifted as a whole. Where a surface is curved, a shifted lattice has a row more on the side it comes
-   * from, and `Edge volumes` says what the points near the surface stand for: `whole`, their boxes; `sampled`, the part
-   * of the shape that is nearer to a point than to any other, so that the mass is that of the shape to 1 % from a radius
-   * of 1.5 spacings on. Shapes are convex. Test: tests/particles/edges.cc.
+   * Flat shapes are shifted as a whole. Where a surface is curved, a shifted lattice has a row more on the side it
+   * comes from, and `Edge volumes` says what the points near the surface stand for: `whole`, their boxes; `sampled`,
+   * the part of the shape that is nearer to a point than to any other, so that the mass is that of the shape to 1 %
+   * from a radius of 1.5 spacings on. Shapes are convex. Test: tests/particles/edges.cc.
    */
   template <int dim>
   class LatticeShape : public Shape<dim>
@@ -69,7 +69,7 @@ namespace Talus
     double              jitter          = 0;
     unsigned int        seed            = 1;
 
-    std::string         edge_volumes    = "whole"; // of flat shapes there are no others
+    std::string edge_volumes = "whole"; // of flat shapes there are no others
 
     dealii::Point<dim>      lower;
     std::array<double, dim> spacing;

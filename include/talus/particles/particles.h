@@ -10,19 +10,19 @@ namespace Talus
 {
   /**
    * All particles. deal.II's ParticleHandler is their *home*, in which they are
-   * created and which whoever is not a part of the step may ask for; the step runs on the *working set*, and one of both
-   * is empty, so that nothing is stored twice. Two things keep the working set in
-   * shape, each done when it is due and not in every step: migrate() sends those
-   * that have gone too far to the rank of their cell, and sort() restores the order
-   * of the cells, which keeps neighbours close in memory. synchronise() is both.
+   * created and which whoever is not a part of the step may ask for; the step runs on the *working set*, and one of
+   * both is empty, so that nothing is stored twice. Two things keep the working set in shape, each done when it is due
+   * and not in every step: migrate() sends those that have gone too far to the rank of their cell, and sort() restores
+   * the order of the cells, which keeps neighbours close in memory. synchronise() is both.
    */
   template <int dim>
   class Particles : public WorkingSet<dim>
   {
   public:
     /**
-     * Creates the particles of all bodies in the cells this rank owns. Throws EntryError for an empty body, for one that
-     * does not lie in the grid, and where number or volume of a body's particles are not those of its shape. Collective.
+     * Creates the particles of all bodies in the cells this rank owns. Throws EntryError for an empty body, for one
+     * that does not lie in the grid, and where number or volume of a body's particles are not those of its shape.
+     * Collective.
      */
     void create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
                 const std::vector<std::unique_ptr<Material>> &materials);
@@ -69,15 +69,16 @@ namespace Talus
 
     /**
      * Moves all particles into deal.II's ParticleHandler, and leaves the working set empty until take_back(). Each lies
-     * in a cell of its rank, where deal.II's iterators find it. Its properties are its columns, `fields` says which: the
-     * mass is get_properties()[fields[mass].first]. get_location() is its position, on a box moved off the faces of the
-     * cell by up to 1e-6 of it. Properties may be changed, but for the position, and particles be taken out. Collective.
+     * in a cell of its rank, where deal.II's iterators find it. Its properties are its columns, `fields` says which:
+     * the mass is get_properties()[fields[mass].first]. get_location() is its position, on a box moved off the faces of
+     * the cell by up to 1e-6 of it. Properties may be changed, but for the position, and particles be taken out.
+     * Collective.
      */
     dealii::Particles::ParticleHandler<dim> &home();
 
     /**
-     * The way back: with what was changed there, in canonical order. Throws RunError for a particle that was added there,
-     * or whose position was moved. Collective.
+     * The way back: with what was changed there, in canonical order. Throws RunError for a particle that was added
+     * there, or whose position was moved. Collective.
      */
     void take_back();
 
@@ -91,7 +92,7 @@ namespace Talus
     bool         needs_synchronise = false; // set by relocate(): a particle has strayed too far from this rank
     bool         needs_activation  = false; // set by relocate(): a corner has come to nodes that are not active
     bool         brings_new_nodes  = false; // set by migrate(): nodes around a particle that came are not active
-    unsigned int outside           = none;  // set by relocate(): of the particles outside the grid that of lowest number
+    unsigned int outside           = none; // set by relocate(): of the particles outside the grid that of lowest number
 
     std::uint64_t n_global    = 0;
     std::uint64_t arrangement = 0; // grows whenever particles of the working set come, go or change places

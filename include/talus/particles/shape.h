@@ -52,7 +52,8 @@ namespace Talus
       return edges;
     }
 
-    /** Whether x lies within the region that the points stand for, and not on its surface; a list of points has none. */
+    /** Whether x lies within the region that the points stand for, and not on its surface; a list of points has none.
+     */
     virtual bool covers(const Point & /*x*/) const { return false; }
 
     /** Whether the shape is nothing but points: covers() then knows nothing. */

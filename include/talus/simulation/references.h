@@ -50,6 +50,6 @@ namespace Talus
 
     std::unique_ptr<Verification<dim>> verification;
     bool                               is_switched_off = false; // the reference, which the file describes
-    std::vector<double>                errors; // against the solution, in the order of their columns
+    std::vector<double>                errors;                  // against the solution, in the order of their columns
   };
 } // namespace Talus

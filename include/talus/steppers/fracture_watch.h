@@ -11,8 +11,8 @@ namespace Talus
    * distance of neighbours is the largest principal stretch of F times the initial spacing, the reach of a kernel of
    * support R (n nodes) 2 R - 1 spacings of the grid, 1 for the linear, 2 for the quadratic, 3 for the cubic one. In
    * shear others come between: the space ahead of the particle must be emptier than that around it as well, by the mass
-   * of the nodes. Water and dry sand have no neighbours to keep, and domains that follow their particles (CPDI) leave no gap.
-   * Test: tests/inputs.
+   * of the nodes. Water and dry sand have no neighbours to keep, and domains that follow their particles (CPDI) leave
+   * no gap. Test: tests/inputs.
    */
   template <int dim>
   class FractureWatch
@@ -49,9 +49,9 @@ namespace Talus
     bool has_gaps(const Model<dim> &model, const unsigned int p, const dealii::Tensor<1, dim> &neighbour) const;
 
     bool                is_watching = false, has_told = false;
-    std::vector<double> spacings; // of each body's particles at the start, the largest [length]
-    std::vector<bool>   is_solid; // bodies
-    double              reach = 0; // [spacing of the grid]
+    std::vector<double> spacings;     // of each body's particles at the start, the largest [length]
+    std::vector<bool>   is_solid;     // bodies
+    double              reach    = 0; // [spacing of the grid]
     double              distance = 0;
   };
 } // namespace Talus

@@ -44,8 +44,8 @@ namespace Talus
     std::optional<double> lone_particle_limit(const std::array<double, 2> &stiffness_factors) const;
 
     /**
-     * How much more than a fluid's a lone particle of this run's materials bears: sqrt(d (l + 2 G) / (d l + 2 G)) of the
-     * least, with their Lame constants.
+     * How much more than a fluid's a lone particle of this run's materials bears: sqrt(d (l + 2 G) / (d l + 2 G)) of
+     * the least, with their Lame constants.
      */
     double material_factor() const;
 
@@ -79,7 +79,8 @@ namespace Talus
     void build_bodies(Parameters &parameters);
     void build_conditions(Parameters &parameters);
 
-    /** Throws EntryError where the particles need more memory than there is, and says how much of it they need. Collective. */
+    /** Throws EntryError where the particles need more memory than there is, and says how much of it they need.
+     * Collective. */
     void check_memory() const;
 
     std::string acceleration_text;

@@ -10,7 +10,8 @@ namespace Talus
   template <int dim>
   std::string remedy_of_instability(const Model<dim> &model);
 
-  /** What helps where a particle has left the grid at x: a condition on a face that has none, or something else. Collective. */
+  /** What helps where a particle has left the grid at x: a condition on a face that has none, or something else.
+   * Collective. */
   template <int dim>
   std::string remedy_of_exit(const Model<dim> &model, const dealii::Tensor<1, dim> &x);
 } // namespace Talus

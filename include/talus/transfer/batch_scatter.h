@@ -190,7 +190,8 @@ namespace Talus
         const double phi   = stencil.value[i].data()[l];
         Node         value = phi * add.constant[l];
         for (unsigned int d = 0; d < dim; ++d)
-          value += Vectors::blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) * add.linear[d][l];
+          value += Vectors::blend(phi * stencil.offset[d][k[d]].data()[l], stencil.gradient[d][i].data()[l]) *
+                   add.linear[d][l];
         if (beyond != 0)
         {
           fields.count_mirrored(value.data(), beyond);

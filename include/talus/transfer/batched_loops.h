@@ -65,10 +65,10 @@ namespace Talus
     static constexpr unsigned int n     = Function::n;
     static constexpr unsigned int width = native_width;
 
-    using Fields       = NodalFields<dim>;
-    using Number       = Simd<native_width>;
-    using Evaluator    = BatchEvaluator<dim, Function>;
-    using Polynomials  = PolynomialGather<dim, Scheme, Function>;
+    using Fields      = NodalFields<dim>;
+    using Number      = Simd<native_width>;
+    using Evaluator   = BatchEvaluator<dim, Function>;
+    using Polynomials = PolynomialGather<dim, Scheme, Function>;
 
     static_assert(Fields::stride == 8 && Fields::velocity == 1 && Fields::increment == 1 + dim, "the layout of a node");
 

@@ -41,7 +41,7 @@ namespace Talus
       for (unsigned int d = 0; d < dim; ++d)
       {
         rows[Fields::momentum + d] = m * v[d]; // Eq. (15)
-        rows[Fields::force + d]    = m * b[d];                           // Eq. (12)
+        rows[Fields::force + d]    = m * b[d]; // Eq. (12)
       }
       lanes_to_vectors<native_width>(rows, constant);
       for (unsigned int e = 0; e < dim; ++e)
@@ -49,7 +49,7 @@ namespace Talus
         rows[Fields::mass] = 0.;
         for (unsigned int d = 0; d < dim; ++d)
         {
-          rows[Fields::momentum + d] = m * C[d][e]; // Eqs. (17), (19)
+          rows[Fields::momentum + d] = m * C[d][e];       // Eqs. (17), (19)
           rows[Fields::force + d]    = -V * stress[d][e]; // Eq. (11)
         }
         lanes_to_vectors<native_width>(rows, linear[e]);

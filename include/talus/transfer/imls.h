@@ -11,8 +11,8 @@ namespace Talus
   /**
    * Improved moving least squares on the nodes of a lattice, Tran et al. (2019): each node fits its data, values of a
    * vector at points within two spacings of it along each axis, weighted by cubic B-splines, and takes the fit's value.
-   * See ImlsBasis for what the data do not determine. Near faces of the domain the fit is one-sided. A node's sums stand
-   * side by side; a datum adds the same registers, made of factors of one axis each, to its 4^dim nodes.
+   * See ImlsBasis for what the data do not determine. Near faces of the domain the fit is one-sided. A node's sums
+   * stand side by side; a datum adds the same registers, made of factors of one axis each, to its 4^dim nodes.
    */
   template <int dim, unsigned int order>
   class Imls
@@ -33,8 +33,7 @@ namespace Talus
         const unsigned int rest      = lane - Basis::n_moments;
         const bool         is_used   = lane < n_numbers;
         for (unsigned int d = 0; d < dim; ++d)
-          exponent[d][lane] =
-            is_used ? 1. * Basis::monomials[is_moment ? lane : rest / dim][d] : 0.;
+          exponent[d][lane] = is_used ? 1. * Basis::monomials[is_moment ? lane : rest / dim][d] : 0.;
         component[lane] = is_used && !is_moment ? rest % dim : (is_used ? dim : dim + 1);
       }
     }
@@ -57,9 +56,9 @@ namespace Talus
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double base = std::floor(coordinate[d] - CubicBSpline::shift), s = coordinate[d] - base;
-        first[d]          = static_cast<int>(base);
-        begin[d]          = std::max(0, -first[d]);
-        end[d]            = std::min(n, lattice.n_cells[d] + 1 - first[d]);
+        first[d] = static_cast<int>(base);
+        begin[d] = std::max(0, -first[d]);
+        end[d]   = std::min(n, lattice.n_cells[d] + 1 - first[d]);
         place += (first[d] - lattice.first[d]) * lattice.stride[d];
         double weight[n], derivative[n];
         CubicBSpline().evaluate(s, weight, derivative);
@@ -129,8 +128,8 @@ namespace Talus
       return result;
     }
 
-    Array                         sums;
-    alignas(64) double            exponent[dim][8 * n_registers];
-    unsigned int                  component[8 * n_registers]; // of the value; dim: 1, dim + 1: 0
+    Array sums;
+    alignas(64) double exponent[dim][8 * n_registers];
+    unsigned int component[8 * n_registers]; // of the value; dim: 1, dim + 1: 0
   };
 } // namespace Talus

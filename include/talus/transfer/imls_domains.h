@@ -114,7 +114,7 @@ namespace Talus
       std::copy_n(common, dim, n);
     }
 
-    static constexpr int          max_n       = 8;
+    static constexpr int max_n = 8;
     // Two nodes at a time keep more sums going than one, which waits for its own; but the sums must fit into registers.
     static constexpr int          together    = dim == 2 || native_width == 8 ? 2 : 1;
     static constexpr unsigned int n_across    = dim == 2 ? 3 : 6;

@@ -71,7 +71,8 @@ namespace Talus
     static constexpr bool gathers_B         = false;
     static constexpr bool gathers_increment = false;
 
-    // See Transfer::stiffness_factors(); these for schemes that lose velocity differences within a particle in each step.
+    // See Transfer::stiffness_factors(); these for schemes that lose velocity differences within a particle in each
+    // step.
     static constexpr std::array<double, 2> stiffness_factors = {{0.5, 0.}};
 
     /** Leaves d v_t / d n out of C_p of particles at slip walls; for affine schemes: see without_wall_shear(). */

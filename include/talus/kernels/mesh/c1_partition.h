@@ -177,15 +177,15 @@ namespace Talus
   }
 
   template <class Number>
-  [[gnu::always_inline]] inline C1Shares<3, Number> c1_shares(const Feet<2, Number> &feet,
-                                                                  const std::array<Number, 3> &B)
+  [[gnu::always_inline]] inline C1Shares<3, Number> c1_shares(const Feet<2, Number>       &feet,
+                                                              const std::array<Number, 3> &B)
   {
     return internal::triangle_shares<Number>(feet.lambda, {B[0], B[1], B[2]});
   }
 
   template <class Number>
-  [[gnu::always_inline]] inline C1Shares<4, Number> c1_shares(const Feet<3, Number> &feet,
-                                                                  const std::array<Number, 4> &B)
+  [[gnu::always_inline]] inline C1Shares<4, Number> c1_shares(const Feet<3, Number>       &feet,
+                                                              const std::array<Number, 4> &B)
   {
     Number W[4], by[4][4], values[4][4];
     internal::blend<4, Number>({B[0], B[1], B[2], B[3]}, W, by);

@@ -17,7 +17,8 @@ namespace Talus
    * @f[ \nabla\phi_v = g_v + (a\cdot p_v)\nabla w_v - w_v Q^T p_v , \quad
    *     Q = M^{-1} \sum_u (a\cdot p_u)\,p_u \nabla w_u^T . @f]
    * As these are true gradients, the integral of grad phi_v is its boundary term, and refinement converges on meshes
-   * that are not uniform. At up to mesh_width points; `feet` of all cells. Theory: doc/umls.md. Test: tests/mesh/kernels.cc.
+   * that are not uniform. At up to mesh_width points; `feet` of all cells. Theory: doc/umls.md. Test:
+   * tests/mesh/kernels.cc.
    */
   template <class Weight, int dim>
   void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
@@ -88,7 +89,7 @@ namespace Talus
         }
       }
 
-      SetTable<dim>      gamma, grad_gamma[dim];
+      SetTable<dim> gamma, grad_gamma[dim];
       alignas(64) double inverse_s[mesh_width], grad_s[dim][mesh_width];
     };
 
@@ -119,22 +120,22 @@ namespace Talus
     {
       const Lanes     scale = at.inverse_s[l];
       MomentSums<dim> M;
-      to[l] = list_ring(mesh, points[l].cell, points[l].x.data(), lists[l],
-                        [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
-                          Lanes d[dim], square = 0.;
-                          for (unsigned int e = 0; e < dim; ++e)
-                          {
-                            d[e] = scale * offset[e];
-                            square += d[e] * d[e];
-                          }
-                          const Lanes q = sqrt(square), b = Weight::value(q), gamma = at.gamma(touches, l);
-                          const Lanes weight = b * gamma, slope = scale * gamma * Weight::slope_over_q(q);
-                          weight.store(list.weight + k);
-                          for (unsigned int e = 0; e < dim; ++e)
-                            (b * at.grad_gamma[e](touches, l) - slope * (d[e] + square * at.grad_s[e][l]))
-                              .store(list.gradient[e] + k);
-                          M.add(weight, d);
-                        });
+      to[l] = list_ring(
+        mesh, points[l].cell, points[l].x.data(), lists[l],
+        [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
+          Lanes d[dim], square = 0.;
+          for (unsigned int e = 0; e < dim; ++e)
+          {
+            d[e] = scale * offset[e];
+            square += d[e] * d[e];
+          }
+          const Lanes q = sqrt(square), b = Weight::value(q), gamma = at.gamma(touches, l);
+          const Lanes weight = b * gamma, slope = scale * gamma * Weight::slope_over_q(q);
+          weight.store(list.weight + k);
+          for (unsigned int e = 0; e < dim; ++e)
+            (b * at.grad_gamma[e](touches, l) - slope * (d[e] + square * at.grad_s[e][l])).store(list.gradient[e] + k);
+          M.add(weight, d);
+        });
       moments.set(l, M.rows);
     }
     moments.fill(n);

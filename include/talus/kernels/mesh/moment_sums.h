@@ -11,8 +11,8 @@ namespace Talus
   constexpr unsigned int mesh_width = native_width;
 
   /**
-   * `n` sums over the nodes of up to mesh_width particles. A particle's nodes lie in the lanes of registers, and their sums are
-   * found one particle after the other; what is made of the sums has one particle in each lane.
+   * `n` sums over the nodes of up to mesh_width particles. A particle's nodes lie in the lanes of registers, and their
+   * sums are found one particle after the other; what is made of the sums has one particle in each lane.
    */
   template <unsigned int n>
   class SumsOfParticles
@@ -53,7 +53,7 @@ namespace Talus
   struct MomentSums
   {
     static constexpr unsigned int n = dim + 1, n_sums = (dim + 1) * (dim + 2) / 2;
-    using Lanes                     = Simd<mesh_width>;
+    using Lanes = Simd<mesh_width>;
 
     Lanes rows[n_sums]; // lower triangle of M, row by row
 
@@ -91,8 +91,8 @@ namespace Talus
      */
     [[gnu::always_inline]] explicit InverseMoments(const SumsOfParticles<MomentSums<dim>::n_sums> &sums)
     {
-      const Lanes                              m = sums[0], inverse_m = 1. / m;
-      Lanes                                    c[dim];
+      const Lanes                             m = sums[0], inverse_m = 1. / m;
+      Lanes                                   c[dim];
       std::array<std::array<Lanes, dim>, dim> S;
       for (unsigned int i = 0, k = 1; i < dim; ++i)
       {

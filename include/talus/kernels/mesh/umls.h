@@ -163,8 +163,8 @@ namespace Talus
     std::array<Lanes, dim + 1>               B;
     for (unsigned int l = 0; l < mesh_width; ++l)
     {
-      const auto        &point = points[l < n ? l : 0];
-      const auto share = at_least_shares(mesh, point.cell, mesh.barycentric(point.cell, point.x.data()));
+      const auto &point = points[l < n ? l : 0];
+      const auto  share = at_least_shares(mesh, point.cell, mesh.barycentric(point.cell, point.x.data()));
       for (unsigned int u = 0; u <= dim; ++u)
         B[u].set(l, share[u]);
       inverse_s[l] = 1 / support_length(mesh, point.cell, share, options);
@@ -175,7 +175,7 @@ namespace Talus
     {
       const unsigned int cell  = points[l].cell;
       const Lanes        scale = inverse_s[l];
-      MomentSums<dim> M;
+      MomentSums<dim>    M;
       to[l] = list_ring(mesh, cell, points[l].x.data(), lists[l],
                         [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
                           Lanes d[dim], square = 0.;
