@@ -19,6 +19,7 @@ SCALE = RHO * G * DEPTH
 COARSE, FINE = 0.04, 0.02
 WIDTH = {COARSE: 3.24, FINE: 3.22}  # the tank is 3.22 wide, rounded up to whole cells
 
+PAPER = {"Kernel/Boundary treatment": "WLS", "Run/Courant number": 0.1}
 PROJECTION = {"Kernel/Boundary treatment": "WLS separable", "Transfer/Slip projection": "true"}
 MIRROR = {"Kernel/Boundary treatment": "mirror"}
 SMOOTHING = {"Materials/water/J smoothing": 0.1}
@@ -31,7 +32,8 @@ FLOOR_ROWS = {"rms y < h/2": (0, 0.5), "rms h/2..h": (0.5, 1), "rms h..2h": (1, 
 
 
 def run(case, kernel, transfer, settings, cure="none", h=COARSE):
-    return Run("prm/dam_break.prm", {"Kernel/Type": kernel, "Transfer/Type": transfer, **settings, **CURES[cure]},
+    return Run("prm/dam_break.prm",
+               {"Kernel/Type": kernel, "Transfer/Type": transfer, **PAPER, **settings, **CURES[cure]},
                {"case": case, "kernel": kernel, "transfer": transfer, "cure": cure, "h": h})
 
 

@@ -30,6 +30,7 @@ def data():
 def runs():
     return [Run("prm/dam_break.prm",
                 {"Grid/Upper corner": "4, 1.2", "Grid/Spacing": h, "Transfer/Type": transfer,
+                 "Kernel/Boundary treatment": "WLS", "Run/Courant number": 0.1,
                  "Bodies/column/Upper corner": f"{A}, {2 * A}", "Bodies/column/Surface level": 2 * A,
                  "Run/End time": END, "Output/Time interval": 0.02, "Output/Grid": "false"},
                 {"h": h, "transfer": transfer}) for h in (0.05, 0.025) for transfer in ("FLIP", "TPIC")]

@@ -33,6 +33,7 @@ namespace Talus
   void BoxGrid<dim>::create(const CellWeight &weight, const Reach &reach)
   {
     this->reach = reach;
+    my_rank     = Utilities::MPI::this_mpi_process(communicator);
     create_triangulation(weight);
     number_nodes();
     fill_tables(reach.layers);
@@ -70,9 +71,6 @@ namespace Talus
       this->p4est.repartition();
       connection.disconnect();
     }
-    cells.assign(this->p4est.n_active_cells(), CellIterator());
-    for (const auto &cell : this->p4est.active_cell_iterators())
-      cells[cell->active_cell_index()] = cell;
   }
 
   template <int dim>
@@ -145,6 +143,27 @@ namespace Talus
       b[d]                = lattice.node_position(index[d] + 1, d) + margin;
     }
     return BoundingBox<dim>({a, b});
+  }
+
+  template <int dim>
+  std::vector<typename BoxGrid<dim>::CellNodes> BoxGrid<dim>::cells(const bool only_active) const
+  {
+    std::vector<CellNodes> result;
+    for (unsigned int i = 0; i < fields.n_local(); ++i)
+    {
+      if ((only_active && !is_active[i]) || !owns_cell(nodes.place(i)))
+        continue;
+      CellNodes    cell;
+      unsigned int v          = 0;
+      bool         all_active = true;
+      for_each_index(node_index[i], 2, [&](const auto &corner) {
+        cell[v]    = lattice.node_at(corner);
+        all_active = all_active && is_active[cell[v++]];
+      });
+      if (all_active || !only_active)
+        result.push_back(cell);
+    }
+    return result;
   }
 
   template <int dim>

@@ -94,7 +94,6 @@ namespace Talus
   template <int dim>
   std::vector<Leaver> BoxGrid<dim>::leavers(const Points &x, const unsigned int *, const unsigned int n) const
   {
-    const unsigned int  my_rank = Utilities::MPI::this_mpi_process(communicator);
     std::vector<Leaver> leavers;
     for_each_batch(0, n, [&](const auto batch) {
       using Number = typename decltype(batch)::Number;

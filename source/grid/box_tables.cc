@@ -83,10 +83,8 @@ namespace Talus
       {
         const auto index     = to_index(lattice, cell->vertex(0), 0.5);
         const int  entry     = lattice.table_index(index);
-        lattice.owner[entry] = cell->subdomain_id();
-        if (cell->is_locally_owned())
-          lattice.cell[entry] = cell->active_cell_index();
-        unsigned int v = 0;
+        lattice.owner[entry] = cell->is_locally_owned() ? my_rank : cell->subdomain_id();
+        unsigned int v       = 0;
         for_each_index(index, 2,
                        [&](const auto &corner) { dofs[lattice.table_index(corner)] = cell->vertex_dof_index(v++, 0); });
       }
@@ -120,7 +118,6 @@ namespace Talus
   void BoxGrid<dim>::learn_layers(const unsigned int n_layers, std::vector<types::global_dof_index> &dofs,
                                   IndexSet &known)
   {
-    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
     using Index = typename Lattice<dim>::Index;
@@ -137,8 +134,8 @@ namespace Talus
 
     // My cells with the ranks that have them as ghosts: these ranks learn all that I know of what is near.
     std::vector<std::pair<int, std::set<unsigned int>>> shared;
-    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
-      if (lattice.cell[entry] != lattice.missing)
+    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+      if (owns_cell(entry))
       {
         std::set<unsigned int> ranks;
         around(entry, 1, 3, [&](const int at) {

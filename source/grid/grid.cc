@@ -54,11 +54,17 @@ namespace Talus
     // Those that remain are cleared in the next step; the others may hold something of the last one. At first all are
     // active and zero: memory that does not exist is not asked for.
     const auto is_zero = [](const double number) { return number == 0; };
+    n_changed_nodes    = 0;
     for (unsigned int i = 0; i < fields.n_local(); ++i)
-      if (is_active[i] && !is_reached[i] && !std::all_of(fields[i], fields[i] + fields.stride, is_zero))
-        std::fill_n(fields[i], fields.stride, 0.);
-    is_active.assign(is_reached.begin(), is_reached.end());
-    collect_active_nodes();
+      if (is_active[i] != static_cast<bool>(is_reached[i]))
+      {
+        if (is_active[i] && !std::all_of(fields[i], fields[i] + fields.stride, is_zero))
+          std::fill_n(fields[i], fields.stride, 0.);
+        is_active[i] = !is_active[i];
+        ++n_changed_nodes;
+      }
+    if (n_changed_nodes > 0)
+      collect_active_nodes();
   }
 
   template <int dim>

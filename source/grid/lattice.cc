@@ -22,7 +22,6 @@ namespace Talus
                              "or a smaller box."));
     }
     node.assign(size, missing);
-    cell.assign(size, missing);
     owner.assign(size, missing);
     slip_faces.assign(size, 0);
   }

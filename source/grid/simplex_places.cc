@@ -120,6 +120,28 @@ namespace Talus
   }
 
   template <int dim>
+  std::vector<typename SimplexGrid<dim>::CellNodes> SimplexGrid<dim>::cells(const bool only_active) const
+  {
+    std::vector<unsigned int> number(mesh().n_nodes());
+    for (unsigned int i = 0; i < this->nodes.n_local(); ++i)
+      number[this->nodes.place(i)] = i;
+    std::vector<CellNodes> result;
+    for (unsigned int c = 0; c < this->partition.n_owned_cells; ++c)
+    {
+      CellNodes cell{};
+      bool      all_active = true;
+      for (unsigned int v = 0; v <= dim; ++v)
+      {
+        cell[v]    = number[mesh().nodes[c][v]];
+        all_active = all_active && this->is_active[cell[v]];
+      }
+      if (all_active || !only_active)
+        result.push_back(cell);
+    }
+    return result;
+  }
+
+  template <int dim>
   void SimplexGrid<dim>::find_open_cells()
   {
     const auto   is_active = by_place({this->is_active.begin(), this->is_active.end()});
@@ -231,12 +253,13 @@ namespace Talus
                                          unsigned int *) const;                                                        \
   template std::vector<Leaver> SimplexGrid<dim>::leavers(const Points &, const unsigned int *, const unsigned int)     \
     const;                                                                                                             \
-  template void                     SimplexGrid<dim>::activate(const std::vector<char> &);                             \
-  template std::vector<char>        SimplexGrid<dim>::by_number(const std::vector<char> &) const;                      \
-  template std::vector<char>        SimplexGrid<dim>::by_place(const std::vector<char> &) const;                       \
-  template void                     SimplexGrid<dim>::find_open_cells();                                               \
-  template bool                     SimplexGrid<dim>::contains(const Tensor<1, dim> &) const;                          \
-  template std::size_t              SimplexGrid<dim>::cell_number(const Point<dim> &) const;                           \
+  template void              SimplexGrid<dim>::activate(const std::vector<char> &);                                    \
+  template std::vector<char> SimplexGrid<dim>::by_number(const std::vector<char> &) const;                             \
+  template std::vector<char> SimplexGrid<dim>::by_place(const std::vector<char> &) const;                              \
+  template void              SimplexGrid<dim>::find_open_cells();                                                      \
+  template std::vector<typename SimplexGrid<dim>::CellNodes> SimplexGrid<dim>::cells(const bool) const;                \
+  template bool                                              SimplexGrid<dim>::contains(const Tensor<1, dim> &) const; \
+  template std::size_t                                       SimplexGrid<dim>::cell_number(const Point<dim> &) const;  \
   template Point<dim>               SimplexGrid<dim>::unit_point(const CellIterator &, const Point<dim> &) const;      \
   template dealii::BoundingBox<dim> SimplexGrid<dim>::cell_box(const CellIterator &) const;                            \
   template std::vector<bool>        SimplexGrid<dim>::are_inside(const std::vector<Point<dim>> &) const;               \

@@ -61,8 +61,7 @@ void tables()
       typename Lattice<dim>::Index index;
       for (unsigned int d = 0; d < dim; ++d)
         index[d] = static_cast<int>(std::floor(lattice.coordinate(cell->center()[d], d)));
-      const unsigned int found = lattice.cell[lattice.table_index(index)];
-      cells_agree              = cells_agree && found != lattice.missing && s.grid.owned_cell(found) == cell;
+      cells_agree = cells_agree && s.grid.owns_cell(lattice.table_index(index));
       for (const unsigned int v : cell->vertex_indices())
       {
         auto corner = index;
@@ -76,8 +75,8 @@ void tables()
   unsigned int n_known = 0, n_known_cells = 0;
   for (const unsigned int node : lattice.node)
     n_known += node != lattice.missing;
-  for (const unsigned int cell : lattice.cell)
-    n_known_cells += cell != lattice.missing;
+  for (unsigned int place = 0; place < lattice.owner.size(); ++place)
+    n_known_cells += s.grid.owns_cell(place);
   check_true("cells", cells_agree);
   check_true("nodes", nodes_agree);
   check_true("no more nodes than known", n_known == s.grid.fields.n_local());
@@ -129,8 +128,8 @@ void exchange()
   for (const bool is_repeated : {false, true}) // clear() must reset the copies as well
   {
     grid.clear();
-    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
-      if (lattice.cell[entry] != lattice.missing)
+    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+      if (s.grid.owns_cell(entry))
         for (unsigned int v = 0; v < 1u << dim; ++v)
         {
           unsigned int corner = entry;
@@ -172,8 +171,8 @@ void layers()
     // Whether one of this rank's cells lies at most so many cells before and after an index, on every axis.
     const auto has_owned = [&](const typename Lattice<dim>::Index &index, const int before, const int after) {
       bool found = false;
-      for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
-        if (lattice.cell[entry] != lattice.missing)
+      for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+        if (s.grid.owns_cell(entry))
         {
           const auto cell    = lattice.table_entry(entry);
           bool       is_near = true;
@@ -206,8 +205,8 @@ void layers()
     const auto                number = [&](const typename Lattice<dim>::Index &cell) {
       return cell[0] + 9 * (cell[1] + 7 * (dim == 3 ? cell[dim - 1] : 0));
     };
-    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
-      if (lattice.cell[entry] != lattice.missing)
+    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+      if (s.grid.owns_cell(entry))
         owner[number(lattice.table_entry(entry))] = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
     Utilities::MPI::sum(owner, MPI_COMM_WORLD, sum_of_owners);
     bool is_right = true;
@@ -266,8 +265,8 @@ void coverage()
       n_not_covered += !is_known;
     }
     // All stencils of this rank's cells: their first node is that of the cell, or the one before.
-    for (unsigned int entry = 0; entry < lattice.cell.size(); ++entry)
-      if (lattice.cell[entry] != lattice.missing)
+    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+      if (s.grid.owns_cell(entry))
         for (unsigned int k = 0; k < 1u << dim; ++k)
         {
           int base = entry;
@@ -348,7 +347,7 @@ void activity()
   };
   grid.fields.clear();
   for (const Index &place : places)
-    if (grid.lattice.is_in_table(place) && grid.lattice.cell[grid.lattice.table_index(place)] != Lattice<dim>::missing)
+    if (grid.lattice.is_in_table(place) && grid.owns_cell(grid.lattice.table_index(place)))
     {
       first[grid.lattice.table_index(place)] = 1;
       for (unsigned int i = 0; i < grid.fields.n_local(); ++i)

@@ -47,7 +47,7 @@ namespace Test
       typename Lattice<dim>::Index cell;
       for (unsigned int d = 0; d < dim; ++d)
         cell[d] = static_cast<int>(std::floor(lattice.coordinate(x[d], d)));
-      return lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != Lattice<dim>::missing;
+      return lattice.is_in_table(cell) && this->grid.owns_cell(lattice.table_index(cell));
     }
 
     template <class Visitor>

@@ -62,7 +62,7 @@ namespace
       for (unsigned int p = set.material_begin[m]; p < set.material_begin[m + 1]; ++p)
       {
         const auto cell = cell_of(setup, p);
-        holds = holds && lattice.is_in_table(cell) && lattice.cell[lattice.table_index(cell)] != lattice.missing;
+        holds           = holds && lattice.is_in_table(cell) && setup.grid.owns_cell(lattice.table_index(cell));
         if (p > set.material_begin[m])
         {
           const double shift = setup.kernel->reach().shift;
@@ -98,7 +98,7 @@ void synchronise(const bool has_two_materials)
     for (unsigned int p = 0; p < set.size(); ++p)
     {
       const auto cell = cell_of(setup, p);
-      n_changed_rank += setup.grid.lattice.cell[setup.grid.lattice.table_index(cell)] == Lattice<dim>::missing;
+      n_changed_rank += !setup.grid.owns_cell(setup.grid.lattice.table_index(cell));
     }
     const auto        before = everything(setup);
     const std::string name =
@@ -115,8 +115,7 @@ void synchronise(const bool has_two_materials)
     compare("migrate");
     bool all_here = true;
     for (unsigned int p = 0; p < set.size(); ++p)
-      all_here =
-        all_here && setup.grid.lattice.cell[setup.grid.lattice.table_index(cell_of(setup, p))] != Lattice<dim>::missing;
+      all_here = all_here && setup.grid.owns_cell(setup.grid.lattice.table_index(cell_of(setup, p)));
     check_true(name + ": all particles on the rank of their cell", all_here);
     set.sort();
     compare("sort");

@@ -20,6 +20,7 @@ from program import Runs, columns_of, last_particles, main, rms  # noqa: E402
 PRM = os.path.join(HERE, "..", "..", "prm")
 G = 9.81
 TABLES = "Output/CSV = true"
+PAPER = ("Kernel/Boundary treatment = WLS", "Run/Courant number = 0.1")  # of the dam break
 
 
 def run(runs, prm, name, *settings):
@@ -175,7 +176,7 @@ def case_still_water(runs):
     speed = row * G * depth / sound * math.pi / 2 / math.sqrt(2)
     still = (f"Grid/Spacing = {h}", "Grid/Upper corner = 1.2, 0.9", f"Run/End time = {time}", "Output/Time interval = 0")
     for transfer in ("APIC", "TPIC"):
-        s, particles, _ = run(runs, "dam_break.prm", f"still_{transfer}", *still, f"Transfer/Type = {transfer}")
+        s, particles, _ = run(runs, "dam_break.prm", f"still_{transfer}", *PAPER, *still, f"Transfer/Type = {transfer}")
         floor = mean(p["pressure"] for p in particles if p["y"] < h / 2) / pressure
         runs.check(f"{transfer}: pressure at the floor {floor:.4f}", floor - 0.99, 0.02)
         error = [p["pressure"] / pressure - (1 - p["y"] / depth) for p in particles if 2 * h < p["y"] < depth - 2 * h]
@@ -189,8 +190,8 @@ def case_still_water(runs):
 def case_dam(runs):
     """A column of water, 1.2 x .6, h = .06, half way to the far wall."""
     h, depth, sound, time = 0.06, 0.6, 50, 0.3
-    s, particles, _ = run(runs, "dam_break.prm", "TPIC", f"Grid/Spacing = {h}", "Grid/Upper corner = 3.24, 1.2",
-                          f"Run/End time = {time}", "Output/Time interval = 0")
+    s, particles, _ = run(runs, "dam_break.prm", "TPIC", *PAPER, f"Grid/Spacing = {h}",
+                          "Grid/Upper corner = 3.24, 1.2", f"Run/End time = {time}", "Output/Time interval = 0")
     check_water(runs, "TPIC", s, particles, 1.2, depth, h, sound)
 
 
@@ -215,8 +216,9 @@ def case_martin_moyce(runs):
     """
     h, a = 0.05, 0.5
     scale = math.sqrt(2 * G / a)
-    s, particles, directory = run(runs, "dam_break.prm", "TPIC", "Grid/Upper corner = 4, 1.2", f"Grid/Spacing = {h}",
-                                  f"Bodies/column/Upper corner = {a}, {2 * a}", f"Bodies/column/Surface level = {2 * a}",
+    s, particles, directory = run(runs, "dam_break.prm", "TPIC", *PAPER, "Grid/Upper corner = 4, 1.2",
+                                  f"Grid/Spacing = {h}", f"Bodies/column/Upper corner = {a}, {2 * a}",
+                                  f"Bodies/column/Surface level = {2 * a}",
                                   "Run/End time = 0.71", "Output/Time interval = 0.02", "Output/Grid = false")
     check_water(runs, "TPIC", s, particles, a, 2 * a, h, 50)
     T, Z = [], []

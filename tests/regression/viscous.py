@@ -12,8 +12,8 @@ import shutil
 import subprocess
 import sys
 
-VISCOUS = ("Materials/water/Viscosity = 1e5", "Run/Courant number = 1", "Run/End time = 4e-3",
-           "Output/Time interval = 0")
+VISCOUS = ("Kernel/Boundary treatment = WLS", "Materials/water/Viscosity = 1e5", "Run/Courant number = 1",
+           "Run/End time = 4e-3", "Output/Time interval = 0")
 
 
 def run(talus, prm, directory, mpirun, *more):

@@ -21,6 +21,8 @@ template <int dim>
 void locking();
 template <int dim>
 void musl_energy();
+template <int dim>
+void droplet();
 
 int main(int argc, char **argv)
 {
@@ -45,5 +47,7 @@ int main(int argc, char **argv)
                     {"MUSL: energy, 2D", musl_energy<2>},
                     {"MUSL: energy, 3D", musl_energy<3>},
                     {"locking, 2D", locking<2>},
-                    {"locking, 3D", locking<3>}});
+                    {"locking, 3D", locking<3>},
+                    {"droplet above a sea, 2D", droplet<2>},
+                    {"droplet above a sea, 3D", droplet<3>}});
 }

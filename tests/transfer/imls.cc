@@ -156,7 +156,7 @@ void imls_on_a_lattice()
     typename Lattice<dim>::Index index;
     for (unsigned int d = 0; d < dim; ++d)
       index[d] = static_cast<int>(x[d]);
-    const bool is_mine = lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
+    const bool is_mine = lattice.is_in_table(index) && setup.grid.owns_cell(lattice.table_index(index));
     if (!is_mine)
       continue;
     linear.add(lattice, x, field(x, false));
@@ -214,8 +214,7 @@ void imls_domains()
         typename Lattice<dim>::Index index;
         for (unsigned int d = 0; d < dim; ++d)
           index[d] = std::min(static_cast<int>(domains.point[q][d][l]), lattice.n_cells[d] - 1);
-        is_local =
-          is_local && lattice.is_in_table(index) && lattice.cell[lattice.table_index(index)] != lattice.missing;
+        is_local = is_local && lattice.is_in_table(index) && setup.grid.owns_cell(lattice.table_index(index));
       }
     if (!is_local)
       continue;

@@ -34,6 +34,7 @@ namespace Talus
     using typename Grid<dim>::CellWeight;
     using typename Grid<dim>::Points;
     using typename Grid<dim>::Columns;
+    using typename Grid<dim>::CellNodes;
     using Grid<dim>::none;
     using Grid<dim>::communicator;
     using Grid<dim>::dof_handler;
@@ -70,6 +71,8 @@ namespace Talus
     double             share_inside(dealii::Point<dim> &x) const override { return lattice.share_inside(x); }
 
     dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const override;
+    std::vector<CellNodes>   cells(const bool only_active) const override;
+    dealii::ReferenceCell    cell_type() const override { return dealii::ReferenceCells::get_hypercube<dim>(); }
     std::vector<bool>        are_inside(const std::vector<dealii::Point<dim>> &points) const override;
     std::string              extent() const override;
     std::string              summary() const override;
@@ -95,7 +98,8 @@ namespace Talus
     /** Owned nodes on the faces of the box with number `boundary_id` (2 d: lower, 2 d + 1: upper face of axis d). */
     std::vector<unsigned int> nodes_on_boundary(const unsigned int boundary_id) const;
 
-    const CellIterator &owned_cell(const unsigned int active_cell_index) const { return cells[active_cell_index]; }
+    /** Whether the cell above a place of the lattice is this rank's. */
+    bool owns_cell(const unsigned int place) const { return lattice.owner[place] == my_rank; }
 
     Lattice<dim>                              lattice;
     std::vector<typename Lattice<dim>::Index> node_index; // lattice index of each local node
@@ -124,9 +128,9 @@ namespace Talus
     /** Sets the ranks of leavers that this rank does not know. Collective. */
     void find_far_ranks(const Points &x, std::vector<Leaver> &leavers) const;
 
-    Reach                     reach;
-    bool                      knows_all_stencils = false; // this rank has the nodes of every stencil in the domain
-    std::vector<CellIterator> cells;
+    Reach        reach;
+    unsigned int my_rank            = 0;
+    bool         knows_all_stencils = false; // this rank has the nodes of every stencil in the domain
 
     std::vector<double>       lower_corner, upper_corner, spacings;
     std::vector<unsigned int> cell_counts;

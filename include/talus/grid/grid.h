@@ -111,6 +111,14 @@ namespace Talus
     virtual dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const = 0;
 
     /**
+     * The local nodes at the corners of each of this rank's cells in the order of deal.II: of the cells whose nodes are
+     * all active, or of all.
+     */
+    using CellNodes                                                    = std::array<unsigned int, (1 << dim)>;
+    virtual std::vector<CellNodes> cells(const bool only_active) const = 0;
+    virtual dealii::ReferenceCell  cell_type() const                   = 0;
+
+    /**
      * Puts x on the faces of the domain from which round-off has taken it. False where x lies farther out, or where
      * this rank knows no cell that holds it.
      */
@@ -149,6 +157,9 @@ namespace Talus
     /** Owned nodes that are active, in ascending order; at first all. */
     std::vector<unsigned int> active_nodes;
     std::vector<bool>         is_active; // of each local node
+
+    /** How many local nodes the last activate() has switched on or off; it writes to no others. */
+    unsigned int n_changed_nodes = 0;
 
     Communicator                              communicator;
     dealii::parallel::TriangulationBase<dim> &triangulation;

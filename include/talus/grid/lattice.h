@@ -28,7 +28,7 @@ namespace Talus
 
   /**
    * The box grid as a regular lattice: where a point lies by arithmetic instead
-   * of a search, and which local node or cell sits at a lattice index.
+   * of a search, and which local node sits at a lattice index.
    *
    * Node (I, J, K) is at origin + (I h_x, J h_y, K h_z), cell (I, J, K) spans
    * nodes I and I+1 of each axis. The tables cover the bounding box of what this
@@ -51,7 +51,6 @@ namespace Talus
     Index first, extent, stride;
 
     std::vector<unsigned int> node;  // local index of the node at a lattice index
-    std::vector<unsigned int> cell;  // active cell index of the *owned* cell there
     std::vector<unsigned int> owner; // rank of the cell there, if this rank knows it
 
     std::vector<Faces> slip_faces;   // faces that a stencil reaches which begins there, if all its nodes on them slip

@@ -32,6 +32,7 @@ namespace Talus
     using typename Grid<dim>::Points;
     using typename Grid<dim>::CellIterator;
     using typename Grid<dim>::Columns;
+    using typename Grid<dim>::CellNodes;
     using Grid<dim>::none;
     using Grid<dim>::communicator;
     using Grid<dim>::fields;
@@ -62,6 +63,8 @@ namespace Talus
     std::size_t cell_number(const dealii::Point<dim> &x) const override;
 
     dealii::BoundingBox<dim> cell_box(const CellIterator &cell) const override;
+    std::vector<CellNodes>   cells(const bool only_active) const override;
+    dealii::ReferenceCell    cell_type() const override { return dealii::ReferenceCells::get_simplex<dim>(); }
 
     /** Moves nothing: what is outside by round-off belongs to a cell nevertheless. */
     bool enter(dealii::Tensor<1, dim> &x) const override { return contains(x); }

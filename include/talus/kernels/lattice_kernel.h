@@ -27,7 +27,7 @@ namespace Talus
     void choose(Parameters &parameters) override
     {
       const std::string entry = "Boundary treatment";
-      treatment               = parameters.make<Treatment<dim>>(this->get_section_name(), entry, "WLS",
+      treatment               = parameters.make<Treatment<dim>>(this->get_section_name(), entry, "ghost nodes",
                                                   "What happens to the kernel where nodes are missing.");
       if (treatment->needs_boundary_scale() && Function::boundary_scale == 0)
         throw EntryError(this->get_section_name(), entry,

@@ -2,7 +2,7 @@
 
 #include <talus/grid/grid.h>
 
-#include <deal.II/numerics/data_out.h>
+#include <deal.II/base/data_out_base.h>
 
 namespace Talus
 {
@@ -11,18 +11,19 @@ namespace Talus
    * active, which are those near material, or on all. Test: tests/postprocess.
    */
   template <int dim>
-  class GridOutput : public dealii::DataOut<dim>
+  class GridOutput : public dealii::DataOutInterface<dim, dim>
   {
   public:
     /** Reads the nodes this rank owns and brings their values to its neighbours. Collective. */
     explicit GridOutput(const Grid<dim> &grid, const bool has_all_cells = false);
 
-    using dealii::DataOut<dim>::get_patches;
-    using dealii::DataOut<dim>::get_dataset_names;
-
-    // The velocity's components are scalars for the scalar DoFHandler; here they become a vector.
+    const std::vector<dealii::DataOutBase::Patch<dim, dim>> &get_patches() const override { return patches; }
+    std::vector<std::string>                                 get_dataset_names() const override;
     std::vector<std::tuple<unsigned int, unsigned int, std::string,
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
     get_nonscalar_data_ranges() const override;
+
+  private:
+    std::vector<dealii::DataOutBase::Patch<dim, dim>> patches;
   };
 } // namespace Talus
