@@ -17,7 +17,7 @@ namespace Talus
     if (box == nullptr)
       return; // meshes have no treatment that would ask
     // Where something else acts as well a wall does not slip, whatever the order of the list.
-    std::vector<typename Lattice<dim>::Faces> faces(grid.fields.n_owned(), 0);
+    std::vector<BoxFaces> faces(grid.fields.n_owned(), 0);
     for (const bool is_slip : {true, false})
       for (unsigned int c = 0; c < conditions.size(); ++c)
         if (acting[c] && conditions[c]->is_slip() == is_slip)

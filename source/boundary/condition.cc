@@ -277,7 +277,7 @@ namespace Talus
   }
 
   template <int dim>
-  void Condition<dim>::mark_slip(std::vector<typename Lattice<dim>::Faces> &faces) const
+  void Condition<dim>::mark_slip(std::vector<BoxFaces> &faces) const
   {
     for (unsigned int list = 0; list < all_nodes.size(); ++list)
     {

@@ -74,7 +74,7 @@ namespace Talus
   }
 
   template <int dim>
-  void BoxGrid<dim>::set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n)
+  void BoxGrid<dim>::set_slip_walls(const std::vector<BoxFaces> &faces, const unsigned int n)
   {
     AssertDimension(faces.size(), fields.n_owned());
     NodalArray<1> shared;
@@ -85,7 +85,7 @@ namespace Talus
     shared.update_copies();
     auto of_nodes = faces;
     for (unsigned int i = fields.n_owned(); i < fields.n_local(); ++i)
-      of_nodes.push_back(static_cast<typename Lattice<dim>::Faces>(*shared[i]));
+      of_nodes.push_back(static_cast<BoxFaces>(*shared[i]));
     lattice.find_slip_faces(of_nodes, n);
   }
 

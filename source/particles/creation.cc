@@ -77,10 +77,9 @@ namespace Talus
       wanted.push_back(amount_of_shape(grid, body));
       body.first_id = next_id;
       next_id += body.shape->n_indices();
-      AssertThrow(next_id <= n_ids,
-                  InputError("The bodies have " + std::to_string(next_id) +
-                             " lattice points, more than this deal.II can number (" + std::to_string(n_ids) +
-                             "). Use one with 64-bit indices, or fewer particles."));
+      AssertThrow(next_id <= n_ids, InputError("The bodies have " + std::to_string(next_id) +
+                                               " points, more than this deal.II can number (" + std::to_string(n_ids) +
+                                               "). Use one with 64-bit indices, or fewer particles."));
       body_begin.push_back(body.first_id);
       body_material.push_back(body.material);
       for (const auto &cell : grid.triangulation.active_cell_iterators())

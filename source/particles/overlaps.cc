@@ -81,21 +81,33 @@ namespace Talus
       return first;
     }
 
-    /** The particles in each cell of this rank, one cell after the other; those at a lower face in both cells. */
+    /** This rank's particles by boxes as wide as the grid's spacing; those at a lower face of a box in both. */
     template <int dim, class Visitor>
-    void for_each_cell(const Particles<dim> &particles, const Lattice<dim> &lattice, const double margin,
-                       const Visitor &visitor)
+    void for_each_box(const Particles<dim> &particles, const Grid<dim> &grid, const double margin,
+                      const Visitor &visitor)
     {
-      using Entry = std::pair<int, unsigned int>; // of the tables; particle
+      using Box   = std::array<std::int64_t, dim>;
+      using Entry = std::pair<Box, unsigned int>;
       std::vector<Entry> entries;
       for (unsigned int p = 0; p < particles.size(); ++p)
       {
-        const Point<dim> x(particles.vector(particles.position, p));
-        const auto       cell = lattice.cell_index(x);
-        entries.emplace_back(lattice.table_index(cell), p);
+        const Tensor<1, dim>    x = particles.vector(particles.position, p);
+        Box                     box;
+        std::array<double, dim> rest;
         for (unsigned int d = 0; d < dim; ++d)
-          if (lattice.coordinate(x[d], d) - cell[d] < margin)
-            entries.emplace_back(lattice.table_index(cell) - lattice.stride[d], p);
+        {
+          const double c = (x[d] - grid.lower[d]) * grid.inverse_spacing[d];
+          box[d]         = static_cast<std::int64_t>(std::floor(c));
+          rest[d]        = c - box[d];
+        }
+        entries.emplace_back(box, p);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (rest[d] < margin)
+          {
+            Box before = box;
+            --before[d];
+            entries.emplace_back(before, p);
+          }
       }
       std::sort(entries.begin(), entries.end());
       std::vector<unsigned int> members;
@@ -110,16 +122,16 @@ namespace Talus
 
     /** Two particles at the same place: nearer than a millionth of a particle's size. */
     template <int dim>
-    Pair<dim> find_twins(const Particles<dim> &particles, const Lattice<dim> &lattice)
+    Pair<dim> find_twins(const Particles<dim> &particles, const Grid<dim> &grid)
     {
       constexpr double near  = 1e-6;
       const auto       x     = particles.template components<dim>(particles.position);
       const double    *V     = particles.component(particles.volume, 0);
       const auto       reach = [&](const unsigned int p) {
-        return near * std::min(std::pow(V[p], 1. / dim), lattice.smallest_spacing());
+        return near * std::min(std::pow(V[p], 1. / dim), grid.smallest_spacing);
       };
       Pair<dim> first;
-      for_each_cell(particles, lattice, near, [&](std::vector<unsigned int> &members) {
+      for_each_box(particles, grid, near, [&](std::vector<unsigned int> &members) {
         std::sort(members.begin(), members.end(),
                   [&](const unsigned int a, const unsigned int b) { return x[0][a] < x[0][b]; });
         for (unsigned int i = 0; i < members.size(); ++i)
@@ -149,7 +161,7 @@ namespace Talus
 
     /**
      * Lists of points that fill the same space: the volumes of all lists, spread to the nodes as quadratic splines do,
-     * exceed those of the cells. Of a lattice that fills a cell it is exactly one.
+     * exceed those of the cells. Of equal points that fill a cell it is exactly one.
      */
     template <int dim>
     class Filling
@@ -170,7 +182,7 @@ namespace Talus
       {
         std::pair<double, Tensor<1, dim>> result;
         double                            cell = 1;
-        for (const double h : grid.lattice.h)
+        for (const double h : grid.spacing)
           cell *= h;
         for (unsigned int i = 0; i < nodes.n_owned(); ++i)
         {
@@ -184,25 +196,8 @@ namespace Talus
     private:
       void spread(const Tensor<1, dim> &x, const double volume, const unsigned int body)
       {
-        const Lattice<dim>          &lattice = grid.lattice;
-        typename Lattice<dim>::Index first;
-        double                       weight[dim][3];
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double c = lattice.coordinate(x[d], d);
-          first[d]       = static_cast<int>(std::floor(c - 0.5));
-          const double s = c - first[d];
-          weight[d][0]   = 0.5 * (1.5 - s) * (1.5 - s);
-          weight[d][1]   = 0.75 - (s - 1) * (s - 1);
-          weight[d][2]   = 0.5 * (s - 0.5) * (s - 0.5);
-        }
-        for_each_index(first, 3, [&](const auto &index) {
-          const unsigned int node = lattice.node_at(index);
-          if (node == lattice.missing)
-            return;
-          double w = volume;
-          for (unsigned int d = 0; d < dim; ++d)
-            w *= weight[d][index[d] - first[d]];
+        grid.for_each_around(x, [&](const unsigned int node, const double weight) {
+          const double w = volume * weight;
           nodes[node][0] += w;
           nodes[node][1] += w * body;
           nodes[node][2] += w * body * body;
@@ -252,11 +247,7 @@ namespace Talus
       blame(inside.body, "the bodies '" + bodies[inside.body]->name + "' and '" + bodies[inside.other]->name +
                            "' overlap: " + std::to_string(inside.number) +
                            " points of one lie in the other, the first at " + inside.place() + ".");
-    // What follows counts by the cells of a box.
-    const auto box = dynamic_cast<const BoxGrid<dim> *>(&grid);
-    if (box == nullptr)
-      return;
-    const auto twins = first_of_all(find_twins(particles, box->lattice), grid.communicator);
+    const auto twins = first_of_all(find_twins(particles, grid), grid.communicator);
     if (twins.is_found())
     {
       const auto name = [&](const unsigned int b, const std::uint64_t id) {
@@ -270,7 +261,9 @@ namespace Talus
     std::vector<bool> is_list;
     for (const auto &body : bodies)
       is_list.push_back(body->shape->is_list());
-    if (std::count(is_list.begin(), is_list.end(), true) < 2)
+    // Sums at nodes of a box tell how full it is.
+    const auto box = dynamic_cast<const BoxGrid<dim> *>(&grid);
+    if (box == nullptr || std::count(is_list.begin(), is_list.end(), true) < 2)
       return;
     // A row of particles that two lists share fills nodes 1.4-fold, jitter and meshes 1.1-fold.
     constexpr double most    = 1.3;

@@ -1,5 +1,4 @@
 #include <talus/core/exceptions.h>
-#include <talus/particles/corners.h>
 #include <talus/particles/particles.h>
 
 #include <algorithm>
@@ -247,10 +246,7 @@ namespace Talus
       check_place(p, at[p]);
       is_used[at[p]] = 1;
     }
-    if (reach.at_corners)
-      Corners<dim>(*this, half_edges)
-        .for_each(box->lattice, reach.shift, 0, this->size(),
-                  [&](const unsigned int, const auto &index) { is_used[box->lattice.table_index(index)] = 1; });
+    mark_places_of_corners(is_used);
     return is_used;
   }
 

@@ -70,6 +70,7 @@ namespace Talus
       bool          is_list() const override { return true; }
       std::uint64_t n_indices() const override { return points.size(); }
       std::string   position_entry() const override { return "File"; }
+      std::string   density_entry() const override { return "File"; }
 
     private:
       std::string                                file_name;

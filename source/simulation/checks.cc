@@ -1,4 +1,3 @@
-#include <talus/particles/lattice_shape.h>
 #include <talus/simulation/checks.h>
 
 #include <limits>
@@ -153,11 +152,7 @@ namespace Talus
                       ", fewer than 3: its particles move nearly as one. Take a smaller spacing."));
       if (extent.n >= 10 && extent.n_alone > 0.3 * extent.n)
       {
-        const bool is_lattice = dynamic_cast<const LatticeShape<dim> *>(body.shape.get()) != nullptr;
-        warn(body.get_section_name(),
-             is_lattice            ? "Particles per cell and direction" :
-             body.shape->is_list() ? "File" :
-                                     "Particles",
+        warn(body.get_section_name(), body.shape->density_entry(),
              sentence(100 * extent.n_alone / extent.n,
                       " % of the body's particles are alone in their cell: the body is too "
                       "thin for this grid and may fall apart. Take more particles, or a larger spacing."));

@@ -31,21 +31,19 @@ namespace Talus
   {
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
-      return;                                         // a mesh has no lines of nodes
-    constexpr double    near = 0.1, tolerance = 1e-6; // [h]
-    const Lattice<dim> &lattice = box->lattice;
+      return;                                      // a mesh has no lines of nodes
+    constexpr double near = 0.1, tolerance = 1e-6; // [h]
     for (const auto &condition : model.boundary.conditions)
       for (const auto &edge : condition->edges())
       {
-        const unsigned int d = edge.axis;
-        const double       c = lattice.coordinate(edge.position, d), line = std::round(c);
+        const unsigned int d    = edge.axis;
+        const auto         line = box->nearest_line(edge.position, d);
         // How far the line lies outside.
-        const double beyond = edge.is_upper ? line - c : c - line;
-        if (line >= 0 && line <= lattice.n_cells[d] && beyond > tolerance && beyond < near)
+        const double beyond = !line ? 0 : edge.is_upper ? -line->second : line->second;
+        if (beyond > tolerance && beyond < near)
           warn(condition->get_section_name(), edge.entry,
-               sentence(axes[d], " = ", edge.position, " leaves out the nodes at ", axes[d], " = ",
-                        lattice.node_position(static_cast<int>(line), d), ", ", beyond,
-                        " spacings away. Move it onto them if they are meant."));
+               sentence(axes[d], " = ", edge.position, " leaves out the nodes at ", axes[d], " = ", line->first, ", ",
+                        beyond, " spacings away. Move it onto them if they are meant."));
       }
   }
 

@@ -12,7 +12,7 @@ namespace Talus
   template <int dim>
   void FractureWatch<dim>::start(const Model<dim> &model)
   {
-    const auto form = model.kernel->lattice_form();
+    const auto form = model.kernel->product_form();
     is_watching     = form.has_value() && !model.transfer->reach(*model.kernel).at_corners;
     if (!is_watching)
       return;
@@ -75,24 +75,9 @@ namespace Talus
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
       return false; // on a mesh nobody looks between the particles
-    const Lattice<dim> &lattice = box->lattice;
-    const auto          mass_at = [&](const Tensor<1, dim> &x) {
-      typename Lattice<dim>::Index first;
-      std::array<double, dim>      s;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double c = lattice.coordinate(x[d], d);
-        first[d]       = static_cast<int>(std::floor(c));
-        s[d]           = c - first[d];
-      }
+    const auto mass_at = [&](const Tensor<1, dim> &x) {
       double mass = 0;
-      for_each_index(first, 2, [&](const auto &index) {
-        const unsigned int node = lattice.node_at(index);
-        if (node == lattice.missing)
-          return;
-        double weight = 1;
-        for (unsigned int d = 0; d < dim; ++d)
-          weight *= index[d] == first[d] ? 1 - s[d] : s[d];
+      box->for_each_corner(x, [&](const unsigned int node, const double weight) {
         mass += weight * model.grid.fields[node][NodalFields<dim>::mass];
       });
       return mass;

@@ -181,7 +181,7 @@ namespace Talus
   template <int dim>
   void Model<dim>::check_memory() const
   {
-    // A body fills a third of the lattice around it at least, and particles take what they carry.
+    // A body fills a third of the box around it at least, and particles take what they carry.
     double      n = 0, most = 0;
     std::string largest;
     for (const auto &body : bodies)
@@ -226,7 +226,7 @@ namespace Talus
          << particles.n_global << " in " << bodies.size()
          << (bodies.size() == 1 ? " body\n" : " bodies, which share one velocity field: they stick on contact\n")
          << "  kernel     " << chosen("Kernel", "Type")
-         << (kernel->lattice_form() ? ", boundary treatment " + chosen("Kernel", "Boundary treatment") : "")
+         << (kernel->product_form() ? ", boundary treatment " + chosen("Kernel", "Boundary treatment") : "")
          << "\n  transfer   " << chosen("Transfer", "Type") << '\n';
     return text.str();
   }

@@ -29,7 +29,7 @@ namespace Talus
   {
     const std::string fixed = smaller_steps();
     std::string       text  = fixed.empty() ? "Lower the Courant number" : "Take " + fixed;
-    const auto        form  = model.kernel->lattice_form();
+    const auto        form  = model.kernel->product_form();
     if (form && std::holds_alternative<LinearFunction>(form->function))
       return text + ", or take a B-spline: linear kernels are unstable where particles pass the nodes.";
     const std::string treatment = form ? chosen("Kernel", "Boundary treatment") : "";
@@ -65,15 +65,7 @@ namespace Talus
     // Edges of the face are those of others as well, and have their conditions.
     unsigned int n_held = 0;
     for (const unsigned int i : of_face)
-    {
-      bool is_edge = false;
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const int index = box->node_index[i][d];
-        is_edge         = is_edge || (d != face / 2 && (index == 0 || index == box->lattice.n_cells[d]));
-      }
-      n_held += is_held[i] && !is_edge;
-    }
+      n_held += is_held[i] && !box->is_on_other_face(i, face / 2);
     const std::string name = std::string(1, "xyz"[face / 2]) + (face % 2 == 0 ? "-" : "+");
     if (Utilities::MPI::sum(n_held, model.grid.communicator) == 0)
       return "The face " + name + " has no condition: give it one with 'Boundary ids = " + std::to_string(face) +

@@ -64,8 +64,8 @@ namespace Talus
     arrays.stress.fill(zeros.data());
 
     CompiledForm<dim> form = kernel.compiled_form();
-    if (const auto own = kernel.lattice_form())
-      form.template emplace<LatticeForm<dim>>(LatticeForm<dim>{own->function, own->lattice, *treatment});
+    if (const auto own = kernel.product_form())
+      form.template emplace<ProductForm<dim>>(own->with(*treatment));
     // Nodes that are not active are not read.
     fields.clear(grid.active_nodes);
     Loops<dim, Average<dim>>::particle_to_grid({}, arrays, particles, kernel, form, no_force, 0., begin, end, grid,

@@ -1,4 +1,4 @@
-#include <talus/particles/corners.h>
+#include <talus/particles/lattice/corners.h>
 
 #include "points.h"
 

@@ -1,4 +1,4 @@
-#include <talus/transfer/imls_domains.h>
+#include <talus/transfer/lattice/imls_domains.h>
 
 #include "../setup.h"
 

@@ -84,7 +84,7 @@ namespace Talus
     virtual bool is_slip() const { return false; }
 
     /** Enters or takes away the faces on which its nodes slip, for each owned node. */
-    void mark_slip(std::vector<typename Lattice<dim>::Faces> &faces) const;
+    void mark_slip(std::vector<BoxFaces> &faces) const;
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 

@@ -7,6 +7,8 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/mapping_cartesian.h>
 
+#include <optional>
+
 namespace Talus
 {
   /** What deal.II has of a box; a base class, so that it is there before the grid refers to it. */
@@ -93,10 +95,55 @@ namespace Talus
      * Tells the lattice where stencils of n nodes per axis meet slip walls; `faces` has for each owned node those on
      * which it slips. Collective.
      */
-    void set_slip_walls(const std::vector<typename Lattice<dim>::Faces> &faces, const unsigned int n);
+    void set_slip_walls(const std::vector<BoxFaces> &faces, const unsigned int n);
 
     /** Owned nodes on the faces of the box with number `boundary_id` (2 d: lower, 2 d + 1: upper face of axis d). */
     std::vector<unsigned int> nodes_on_boundary(const unsigned int boundary_id) const;
+
+    /** Calls `body(node, weight)` for the corners of the cell around x that this rank knows, weighted by hats. */
+    template <class Body>
+    void for_each_corner(const dealii::Tensor<1, dim> &x, const Body &body) const
+    {
+      for_each_near<2>(
+        x, 0.,
+        [](const double s, double *weight) {
+          weight[0] = 1 - s;
+          weight[1] = s;
+        },
+        body);
+    }
+
+    /** The same for the nodes of a quadratic B-spline around x. */
+    template <class Body>
+    void for_each_around(const dealii::Tensor<1, dim> &x, const Body &body) const
+    {
+      for_each_near<3>(
+        x, 0.5,
+        [](const double s, double *weight) {
+          weight[0] = 0.5 * (1.5 - s) * (1.5 - s);
+          weight[1] = 0.75 - (s - 1) * (s - 1);
+          weight[2] = 0.5 * (s - 0.5) * (s - 0.5);
+        },
+        body);
+    }
+
+    /** Whether a node lies on a face of another axis. */
+    bool is_on_other_face(const unsigned int node, const unsigned int axis) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != axis && (node_index[node][d] == 0 || node_index[node][d] == lattice.n_cells[d]))
+          return true;
+      return false;
+    }
+
+    /** The line of nodes nearest to the coordinate x along an axis, and x less it in spacings; none outside the box. */
+    std::optional<std::pair<double, double>> nearest_line(const double x, const unsigned int axis) const
+    {
+      const double c = lattice.coordinate(x, axis), line = std::round(c);
+      if (!(line >= 0 && line <= lattice.n_cells[axis]))
+        return {};
+      return std::make_pair(lattice.node_position(static_cast<int>(line), axis), c - line);
+    }
 
     /** Whether the cell above a place of the lattice is this rank's. */
     bool owns_cell(const unsigned int place) const { return lattice.owner[place] == my_rank; }
@@ -106,6 +153,30 @@ namespace Talus
     std::vector<char>                         coverage;   // places from which on all nodes within reach are known
 
   private:
+    /** Nodes of stencils of n per axis that begin at floor(coordinate - shift), with the weights of each axis. */
+    template <unsigned int n, class Weights, class Body>
+    void for_each_near(const dealii::Tensor<1, dim> &x, const double shift, const Weights &weights,
+                       const Body &body) const
+    {
+      typename Lattice<dim>::Index first;
+      double                       of_axis[dim][n];
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double c = lattice.coordinate(x[d], d);
+        first[d]       = static_cast<int>(std::floor(c - shift));
+        weights(c - first[d], of_axis[d]);
+      }
+      for_each_index(first, n, [&](const auto &index) {
+        const unsigned int node = lattice.node_at(index);
+        if (node == lattice.missing)
+          return;
+        double weight = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          weight *= of_axis[d][index[d] - first[d]];
+        body(node, weight);
+      });
+    }
+
     /** Throws EntryError where the cells need more memory than there is, and says what much of it they need.
      * Collective. */
     void check_memory() const;

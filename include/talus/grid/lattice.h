@@ -10,6 +10,9 @@
 
 namespace Talus
 {
+  /** A set of faces of a box: bit 2 d is the lower, 2 d + 1 the upper one of axis d. */
+  using BoxFaces = unsigned char;
+
   /** Calls `body(index)` for the n^dim lattice indices from `first` on, x running fastest. */
   template <std::size_t dim, class Body>
   void for_each_index(const std::array<int, dim> &first, const int n, const Body &body)
@@ -39,7 +42,7 @@ namespace Talus
   struct Lattice
   {
     using Index = std::array<int, dim>;
-    using Faces = unsigned char; // a set of faces of the box: bit 2 d is the lower, 2 d + 1 the upper one of axis d
+    using Faces = BoxFaces;
 
     static constexpr unsigned int missing = static_cast<unsigned int>(-1);
 

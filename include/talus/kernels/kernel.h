@@ -3,9 +3,9 @@
 #include <talus/core/parameters.h>
 #include <talus/grid/lattice.h>
 #include <talus/grid/reach.h>
-#include <talus/kernels/functions.h>
+#include <talus/kernels/lattice/functions.h>
 #include <talus/kernels/stencil.h>
-#include <talus/kernels/treatment.h>
+#include <talus/kernels/lattice/treatment.h>
 #include <talus/particles/working_set.h>
 
 #include <optional>
@@ -18,11 +18,13 @@ namespace Talus
 
   /** A kernel that is a product over the axes of a lattice, but for what a treatment does at its faces. */
   template <int dim>
-  struct LatticeForm
+  struct ProductForm
   {
-    LatticeFunction       function;
+    ProductFunction       function;
     const Lattice<dim>   &lattice;
     const Treatment<dim> &treatment;
+
+    ProductForm with(const Treatment<dim> &other) const { return {function, lattice, other}; }
   };
 
   /** A kernel that averages hat functions of a lattice over the corners of particle domains: see CornerHats. */
@@ -35,7 +37,7 @@ namespace Talus
 
   /** The form of a kernel for which loops are compiled. */
   template <int dim>
-  using CompiledForm = std::variant<std::monostate, LatticeForm<dim>, DomainForm<dim>>;
+  using CompiledForm = std::variant<std::monostate, ProductForm<dim>, DomainForm<dim>>;
 
   /** A kernel function: gives particles their stencils. */
   template <int dim>
@@ -70,12 +72,12 @@ namespace Talus
     virtual std::optional<double> greatest_stiffness(const double /* a */, const double /* b */) const { return {}; }
 
     // Forms for which loops are compiled, if the kernel has one; all others run through lists.
-    virtual std::optional<LatticeForm<dim>> lattice_form() const { return {}; }
+    virtual std::optional<ProductForm<dim>> product_form() const { return {}; }
     virtual std::optional<DomainForm<dim>>  domain_form() const { return {}; }
 
     CompiledForm<dim> compiled_form() const
     {
-      if (const auto form = lattice_form())
+      if (const auto form = product_form())
         return *form;
       if (const auto form = domain_form())
         return *form;

@@ -29,6 +29,7 @@ namespace Talus
     void visit_part(const unsigned int part, const unsigned int n_parts,
                     const typename Shape<dim>::Visitor &visitor) const override;
     std::uint64_t n_indices() const override;
+    std::string   density_entry() const override { return "Particles per cell and direction"; }
 
     /** Those of the lattice's boxes, smaller or larger as the volume is. */
     std::array<dealii::Tensor<1, dim>, dim> half_edges(const dealii::Point<dim> &x, const double volume) const override;

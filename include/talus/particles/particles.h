@@ -109,6 +109,9 @@ namespace Talus
     /** Throws EntryError for a body with a domain that reaches beyond the grid. */
     void check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &bodies);
 
+    /** Marks the places from which stencils of corners begin, where domains have corners. */
+    void mark_places_of_corners(std::vector<char> &is_used) const;
+
     /** Throws RunError if a corner lies where its owner, this rank, does not know the nodes. */
     void check_corners_are_known();
 

@@ -62,6 +62,9 @@ namespace Talus
     /** Name of the entry that places the shape: the one to blame when it lies outside the grid. */
     virtual std::string position_entry() const = 0;
 
+    /** Name of the entry that says how many points there are. */
+    virtual std::string density_entry() const { return "Particles"; }
+
     /** Names of the faces that make up the surface; none where it is not known. */
     virtual std::vector<std::string> face_names() const { return {}; }
 

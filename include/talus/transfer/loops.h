@@ -1,7 +1,7 @@
 #pragma once
 
-#include <talus/transfer/batched_loops.h>
-#include <talus/transfer/domain_loops.h>
+#include <talus/transfer/lattice/batched_loops.h>
+#include <talus/transfer/lattice/domain_loops.h>
 #include <talus/transfer/list_loops.h>
 
 namespace Talus
@@ -21,13 +21,13 @@ namespace Talus
                                  const BodyForce<dim> &acceleration, const double time, const unsigned int begin,
                                  const unsigned int end, const Grid<dim> &grid, NodalFields<dim> &fields)
     {
-      if (const auto *lattice = std::get_if<LatticeForm<dim>>(&form))
+      if (const auto *product = std::get_if<ProductForm<dim>>(&form))
         std::visit(
           [&](const auto &function) {
-            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, *lattice, acceleration, time, begin,
+            Batched<decltype(function)>::particle_to_grid(scheme, function, arrays, *product, acceleration, time, begin,
                                                           end, fields);
           },
-          lattice->function);
+          product->function);
       else if (const auto *domain = std::get_if<DomainForm<dim>>(&form))
         DomainLoops<dim, Scheme>::particle_to_grid(scheme, arrays, particles, *domain, acceleration, time, begin, end,
                                                    grid, fields);
@@ -42,13 +42,13 @@ namespace Talus
                                    const Grid<dim> &grid, const NodalFields<dim> &fields, const double dt,
                                    const unsigned int begin, const unsigned int end)
     {
-      if (const auto *lattice = std::get_if<LatticeForm<dim>>(&form))
+      if (const auto *product = std::get_if<ProductForm<dim>>(&form))
         return std::visit(
           [&](const auto &function) {
-            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *lattice, fields, dt, begin,
+            return Batched<decltype(function)>::grid_to_particle(scheme, function, arrays, *product, fields, dt, begin,
                                                                  end);
           },
-          lattice->function);
+          product->function);
       if (const auto *domain = std::get_if<DomainForm<dim>>(&form))
         return DomainLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, *domain, fields, dt, begin, end);
       return ListLoops<dim, Scheme>::grid_to_particle(scheme, arrays, particles, kernel, grid, fields, dt, begin, end);

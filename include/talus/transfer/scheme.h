@@ -1,7 +1,6 @@
 #pragma once
 
 #include <talus/core/body_force.h>
-#include <talus/grid/lattice.h>
 #include <talus/particles/batch_access.h>
 #include <talus/particles/working_set.h>
 

@@ -2,7 +2,7 @@
 
 #include <talus/core/transpose.h>
 #include <talus/grid/nodal_fields.h>
-#include <talus/kernels/lattice_batch.h>
+#include <talus/kernels/lattice/lattice_batch.h>
 #include <talus/transfer/scheme.h>
 
 namespace Talus

@@ -1,6 +1,6 @@
 #include <talus/core/registry.h>
 #include <talus/grid/box_grid.h>
-#include <talus/kernels/corner_hats.h>
+#include <talus/kernels/lattice/corner_hats.h>
 #include <talus/kernels/kernel.h>
 
 namespace Talus

@@ -1,9 +1,9 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/registry.h>
 #include <talus/grid/box_grid.h>
-#include <talus/particles/corners.h>
+#include <talus/particles/lattice/corners.h>
 #include <talus/transfer/flip.h>
-#include <talus/transfer/imls_domains.h>
+#include <talus/transfer/lattice/imls_domains.h>
 
 namespace Talus
 {

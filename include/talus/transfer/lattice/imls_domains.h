@@ -1,7 +1,7 @@
 #pragma once
 
 #include <talus/core/transpose.h>
-#include <talus/transfer/imls.h>
+#include <talus/transfer/lattice/imls.h>
 
 namespace Talus
 {

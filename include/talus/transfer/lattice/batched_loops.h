@@ -2,9 +2,9 @@
 
 #include <talus/core/body_force.h>
 #include <talus/grid/grid.h>
-#include <talus/transfer/batch_gather.h>
-#include <talus/transfer/batch_scatter.h>
-#include <talus/transfer/polynomial_gather.h>
+#include <talus/transfer/lattice/batch_gather.h>
+#include <talus/transfer/lattice/batch_scatter.h>
+#include <talus/transfer/lattice/polynomial_gather.h>
 
 namespace Talus
 {
@@ -20,7 +20,7 @@ namespace Talus
   {
   public:
     static void particle_to_grid(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                 const LatticeForm<dim> &kernel, const BodyForce<dim> &acceleration, const double time,
+                                 const ProductForm<dim> &kernel, const BodyForce<dim> &acceleration, const double time,
                                  const unsigned int begin, const unsigned int end, NodalFields<dim> &fields)
     {
       const Lattice<dim>         &lattice = kernel.lattice;
@@ -37,7 +37,7 @@ namespace Talus
     }
 
     static double grid_to_particle(const Scheme &scheme, const Function &function, const TransferArrays<dim> &arrays,
-                                   const LatticeForm<dim> &kernel, const NodalFields<dim> &fields, const double dt,
+                                   const ProductForm<dim> &kernel, const NodalFields<dim> &fields, const double dt,
                                    const unsigned int begin, const unsigned int end)
     {
       const Lattice<dim>  &lattice      = kernel.lattice;

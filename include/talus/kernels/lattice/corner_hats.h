@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/particles/corners.h>
+#include <talus/particles/lattice/corners.h>
 
 namespace Talus
 {

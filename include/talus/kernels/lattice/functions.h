@@ -169,5 +169,5 @@ namespace Talus
   //   sum phi_i (x_i - x) u_i = second_moment p'(t) + excess(t) c [h], c being the last coefficient.
 
   /** All of them: the batched loops are compiled for each. */
-  using LatticeFunction = std::variant<LinearFunction, QuadraticBSpline, CubicBSpline, GimpFunction>;
+  using ProductFunction = std::variant<LinearFunction, QuadraticBSpline, CubicBSpline, GimpFunction>;
 } // namespace Talus

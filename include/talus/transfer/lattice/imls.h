@@ -1,8 +1,8 @@
 #pragma once
 
 #include <talus/grid/grid.h>
-#include <talus/kernels/functions.h>
-#include <talus/transfer/imls_basis.h>
+#include <talus/kernels/lattice/functions.h>
+#include <talus/transfer/lattice/imls_basis.h>
 
 #include <talus/core/simd.h>
 

@@ -2,7 +2,7 @@
 
 #include <talus/core/body_force.h>
 #include <talus/grid/grid.h>
-#include <talus/kernels/corner_hats.h>
+#include <talus/kernels/lattice/corner_hats.h>
 #include <talus/kernels/kernel.h>
 #include <talus/transfer/contribution.h>
 

@@ -1,5 +1,5 @@
 #include <talus/core/registry.h>
-#include <talus/kernels/treatment.h>
+#include <talus/kernels/lattice/treatment.h>
 
 namespace Talus
 {

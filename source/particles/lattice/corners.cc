@@ -1,5 +1,5 @@
 #include <talus/core/exceptions.h>
-#include <talus/particles/corners.h>
+#include <talus/particles/lattice/corners.h>
 #include <talus/particles/particles.h>
 
 namespace Talus
@@ -114,6 +114,15 @@ namespace Talus
   }
 
   template <int dim>
+  void Particles<dim>::mark_places_of_corners(std::vector<char> &is_used) const
+  {
+    if (reach.at_corners)
+      Corners<dim>(*this, half_edges)
+        .for_each(box->lattice, reach.shift, 0, this->size(),
+                  [&](const unsigned int, const auto &index) { is_used[box->lattice.table_index(index)] = 1; });
+  }
+
+  template <int dim>
   void Particles<dim>::check_corners_are_known()
   {
     const auto &lattice = box->lattice;
@@ -134,6 +143,7 @@ namespace Talus
   template void Particles<dim>::update_open_places();                                                                  \
   template void Particles<dim>::look_at_corners(const unsigned int, const unsigned int);                               \
   template void Particles<dim>::check_initial_corners(const std::vector<std::unique_ptr<Body<dim>>> &);                \
+  template void Particles<dim>::mark_places_of_corners(std::vector<char> &) const;                                     \
   template void Particles<dim>::check_corners_are_known();
   INSTANTIATE(2)
   INSTANTIATE(3)

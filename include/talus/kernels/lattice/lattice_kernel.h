@@ -3,7 +3,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/grid/box_grid.h>
 #include <talus/kernels/kernel.h>
-#include <talus/kernels/lattice_batch.h>
+#include <talus/kernels/lattice/lattice_batch.h>
 #include <talus/particles/batch_access.h>
 
 namespace Talus
@@ -79,7 +79,7 @@ namespace Talus
       return greatest;
     }
 
-    std::optional<LatticeForm<dim>> lattice_form() const override { return {{function, *lattice, *treatment}}; }
+    std::optional<ProductForm<dim>> product_form() const override { return {{function, *lattice, *treatment}}; }
 
   private:
     /** The stencil in one lane of a batch as a list. */

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <talus/grid/nodal_fields.h>
-#include <talus/kernels/lattice_batch.h>
+#include <talus/kernels/lattice/lattice_batch.h>
 #include <talus/transfer/scheme.h>
 
 namespace Talus

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/kernels/lattice_batch.h>
+#include <talus/kernels/lattice/lattice_batch.h>
 #include <talus/transfer/contribution.h>
 
 namespace Talus

@@ -1,6 +1,6 @@
 #include <talus/core/registry.h>
-#include <talus/kernels/functions.h>
-#include <talus/kernels/lattice_kernel.h>
+#include <talus/kernels/lattice/functions.h>
+#include <talus/kernels/lattice/lattice_kernel.h>
 
 namespace Talus
 {
