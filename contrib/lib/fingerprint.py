@@ -33,6 +33,7 @@ class Build:
         for file in (self.talus, self.library):
             if not file.exists():
                 runs.stop(f"there is no '{file}'. Build it, or name another directory.")
+        self.unknown = set()  # entries that an older program lacks, as (section, entry)
 
     def command(self, ranks, *arguments):
         line = ["env", f"LD_PRELOAD={self.library}", str(self.talus), *arguments]
@@ -70,16 +71,33 @@ def read_table(path):
     return {name: values[:, c] for c, name in enumerate(header)}
 
 
-def run(build, case, directory):
-    arguments = [str(runs.ROOT / case.prm)]
-    for entry, value in {**case.settings, "Output/Directory": directory, "Output/Overwrite": "true"}.items():
+def start(build, case, prm, settings):
+    arguments = [str(prm)]
+    for entry, value in settings.items():
         arguments += ["--set", f"{entry} = {value}"]
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "DEAL_II_NUM_THREADS": "1", "OMPI_MCA_pml": "ob1"}
-    finished = subprocess.run(build.command(case.ranks, *arguments), env=environment, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if finished.returncode != 0:
-        raise RuntimeError(next((line for line in finished.stdout.splitlines() if line.startswith("talus: ")),
-                                f"exit status {finished.returncode}"))
+    return subprocess.run(build.command(case.ranks, *arguments), env=environment, text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT)
+
+
+def run(build, case, directory):
+    settings = {**case.settings, "Output/Directory": directory, "Output/Overwrite": "true"}
+    text = (runs.ROOT / case.prm).read_text()
+    prm = pathlib.Path(f"{directory}.prm")
+    while True:
+        without = [entry for _, entry in build.unknown]
+        prm.write_text("".join(line for line in text.splitlines(keepends=True)
+                               if not re.match(rf"\s*set ({'|'.join(map(re.escape, without)) or '$'})\s*=", line)))
+        known = {entry: value for entry, value in settings.items() if entry.split("/")[-1] not in without}
+        finished = start(build, case, prm, known)
+        if finished.returncode == 0:
+            break
+        entry = re.search(r"unknown entry '(.*?)' in section '(.*?)'", finished.stdout)
+        if entry is None or (entry[2], entry[1]) in build.unknown:
+            raise RuntimeError(next((line for line in finished.stdout.splitlines() if line.startswith("talus: ")),
+                                    f"exit status {finished.returncode}"))
+        print(f"Left out of {build.talus}'s runs, which do not know it: '{entry[1]}' in '{entry[2]}'", file=sys.stderr)
+        build.unknown.add((entry[2], entry[1]))
     directory = pathlib.Path(directory)
     particles = read_table(max(directory.glob("particles_*.csv")))
     migrations = re.search(r"(\d+) migrations", finished.stdout)

@@ -1,3 +1,4 @@
+#include <talus/core/eigen.h>
 #include <talus/steppers/fracture_watch.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -55,8 +56,16 @@ namespace Talus
   Tensor<1, dim> FractureWatch<dim>::neighbour(const Model<dim> &model, const unsigned int p) const
   {
     const auto F     = model.particles.matrix(model.particles.F, p);
-    const auto pairs = eigenvectors(symmetrize(F * transpose(F)));
-    return std::sqrt(std::max(pairs[0].first, 0.)) * spacings[model.particles.body[p]] * pairs[0].second;
+    const auto system = eigen_system<dim>(symmetrize(F * transpose(F)));
+    // The direction of the greatest stretch.
+    unsigned int a = 0;
+    for (unsigned int b = 1; b < dim; ++b)
+      if (system.value[b] > system.value[a])
+        a = b;
+    Tensor<1, dim> direction;
+    for (unsigned int d = 0; d < dim; ++d)
+      direction[d] = system.vector[d][a];
+    return std::sqrt(std::max(system.value[a], 0.)) * spacings[model.particles.body[p]] * direction;
   }
 
   template <int dim>

@@ -1,3 +1,4 @@
+#include <talus/core/eigen.h>
 #include <talus/core/registry.h>
 #include <talus/transfer/affine_transfer.h>
 
@@ -22,8 +23,14 @@ namespace Talus
       if (D.norm() < smallest)
         return grad_v;
       Tensor<2, dim> C;
-      for (const auto &[eigenvalue, e] : eigenvectors(D))
-        C += outer_product(eigenvalue < smallest ? grad_v * e : B * e / eigenvalue, e);
+      const auto system = eigen_system<dim>(D);
+      for (unsigned int a = 0; a < dim; ++a)
+      {
+        Tensor<1, dim> e;
+        for (unsigned int d = 0; d < dim; ++d)
+          e[d] = system.vector[d][a];
+        C += outer_product(system.value[a] < smallest ? grad_v * e : B * e / system.value[a], e);
+      }
       return C;
     }
 

@@ -73,4 +73,18 @@ namespace Talus
 
     Number off[3]; // off[r]: the entry of the other two axes
   };
+
+  /**
+   * That of a tensor in space, or in the plane: then the third eigenvector is across it and has the eigenvalue 0. In
+   * place of deal.II's eigenvectors(), which end with an exception where an iteration does not converge.
+   */
+  template <int dim>
+  EigenSystem<double> eigen_system(const dealii::SymmetricTensor<2, dim> &A)
+  {
+    dealii::SymmetricTensor<2, 3> in_space;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        in_space[i][j] = A[i][j];
+    return EigenSystem<double>(in_space);
+  }
 } // namespace Talus
