@@ -3,7 +3,6 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -28,32 +27,6 @@ namespace Talus
   void BoxGrid<dim>::number_nodes()
   {
     dof_handler.distribute_dofs(this->fe);
-
-    // Lexicographic order of the nodes this rank owns.
-    std::vector<std::pair<std::uint64_t, types::global_dof_index>> owned;
-    const IndexSet                                                 before = dof_handler.locally_owned_dofs();
-    std::vector<bool>                                              is_seen(before.n_elements(), false);
-    owned.reserve(before.n_elements());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int v : cell->vertex_indices())
-        {
-          const auto dof = cell->vertex_dof_index(v, 0);
-          if (!before.is_element(dof) || is_seen[before.index_within_set(dof)])
-            continue;
-          is_seen[before.index_within_set(dof)] = true;
-          const auto    index                   = to_index(lattice, cell->vertex(v), 0.5);
-          std::uint64_t number                  = 0;
-          for (unsigned int d = dim; d-- > 0;)
-            number = number * (lattice.n_cells[d] + 1) + index[d];
-          owned.emplace_back(number, dof);
-        }
-    std::sort(owned.begin(), owned.end());
-    std::vector<types::global_dof_index> numbers(owned.size());
-    auto                                 next = before.begin();
-    for (const auto &[number, dof] : owned)
-      numbers[before.index_within_set(dof)] = *next++;
-    dof_handler.renumber_dofs(numbers);
   }
 
   template <int dim>
@@ -92,23 +65,30 @@ namespace Talus
     DoFTools::extract_locally_relevant_dofs(dof_handler, known);
     learn_layers(n_layers, dofs, known);
 
-    // Local numbers: owned nodes, then the others by global number.
+    // Local numbers: owned nodes in the order of their places, then the others by deal.II's number.
     const IndexSet owned  = dof_handler.locally_owned_dofs();
     IndexSet       others = known;
     others.subtract_set(owned);
     node_index.resize(known.n_elements());
-    std::vector<unsigned int> places(known.n_elements());
+    std::vector<unsigned int> places(known.n_elements()), number_of(owned.n_elements());
+    unsigned int              n_numbered = 0;
     for (unsigned int entry = 0; entry < dofs.size(); ++entry)
       if (dofs[entry] != numbers::invalid_dof_index)
       {
-        const unsigned int node = owned.is_element(dofs[entry]) ?
-                                    owned.index_within_set(dofs[entry]) :
-                                    owned.n_elements() + others.index_within_set(dofs[entry]);
-        lattice.node[entry]     = node;
-        node_index[node]        = lattice.table_entry(entry);
-        places[node]            = entry;
+        const bool         is_mine = owned.is_element(dofs[entry]);
+        const unsigned int node    = is_mine ? n_numbered++ : owned.n_elements() + others.index_within_set(dofs[entry]);
+        if (is_mine)
+          number_of[owned.index_within_set(dofs[entry])] = node;
+        lattice.node[entry] = node;
+        node_index[node]    = lattice.table_entry(entry);
+        places[node]        = entry;
       }
-    nodes.reinit(owned, known, communicator, places, lattice.node.size());
+    Nodes by_set; // owned nodes numbered as in their set
+    by_set.reinit(owned, known, communicator, places, lattice.node.size());
+    for (auto &neighbour : by_set.copied_by)
+      for (unsigned int &node : neighbour.nodes)
+        node = number_of[node];
+    nodes.reinit(owned.n_elements(), places, lattice.node.size(), by_set.copied_by, by_set.copied_from, communicator);
     fields.reinit(nodes);
     lattice.find_images();
     this->activate_all();

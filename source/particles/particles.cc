@@ -50,7 +50,7 @@ namespace Talus
     if (reach.at_corners)
     {
       box        = &box_grid(grid, "/Kernel", "Type");
-      half_edges = Corners<dim>::add_field(*this);
+      half_edges = this->add_half_edges();
     }
     update_open_places();
   }
