@@ -8,9 +8,8 @@ namespace Talus
   namespace
   {
     template <int dim, class Batch>
-    Tensor<2, dim, typename Batch::Number> relative_deformation(const Batch                           &batch,
-                                                                const std::array<double *, dim * dim> &grad_v,
-                                                                const double                           dt)
+    [[gnu::always_inline]] inline Tensor<2, dim, typename Batch::Number> relative_deformation(
+      const Batch &batch, const std::array<double *, dim * dim> &grad_v, const double dt)
     {
       auto f = dt * load_matrix<dim>(batch, grad_v);
       for (unsigned int d = 0; d < dim; ++d)

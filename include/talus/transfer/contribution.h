@@ -27,8 +27,12 @@ namespace Talus
     [[gnu::always_inline]] void set(const TransferArrays<dim> &arrays, const Batch &batch,
                                     const dealii::Tensor<2, dim, Number> &C, const dealii::Tensor<1, dim, Number> &b)
     {
-      set(batch.load(arrays.mass), batch.load(arrays.volume), load_vector<dim>(batch, arrays.velocity), b, C,
-          symmetric_matrix<dim>(batch, arrays.stress));
+      // Each number is read where it is needed: there are not registers for all of them.
+      add_up(
+        batch.load(arrays.mass), batch.load(arrays.volume),
+        [&](const unsigned int d) { return batch.load(arrays.velocity[d]); }, b, C,
+        // xy, xz, yz follow the three diagonal components.
+        [&](const unsigned int d, const unsigned int e) { return batch.load(arrays.stress[d == e ? d : 2 + d + e]); });
     }
 
     /** The same of mass m, volume V, velocity v; C and the stress times whatever directions `linear` is to go with. */
@@ -36,24 +40,9 @@ namespace Talus
                                     const dealii::Tensor<1, dim, Number> &b, const dealii::Tensor<2, dim, Number> &C,
                                     const dealii::Tensor<2, dim, Number> &stress)
     {
-      Number rows[8]     = {0., 0., 0., 0., 0., 0., 0., 0.};
-      rows[Fields::mass] = m; // Eq. (13)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        rows[Fields::momentum + d] = m * v[d]; // Eq. (15)
-        rows[Fields::force + d]    = m * b[d]; // Eq. (12)
-      }
-      lanes_to_vectors<native_width>(rows, constant);
-      for (unsigned int e = 0; e < dim; ++e)
-      {
-        rows[Fields::mass] = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          rows[Fields::momentum + d] = m * C[d][e];       // Eqs. (17), (19)
-          rows[Fields::force + d]    = -V * stress[d][e]; // Eq. (11)
-        }
-        lanes_to_vectors<native_width>(rows, linear[e]);
-      }
+      add_up(
+        m, V, [&](const unsigned int d) { return v[d]; }, b, C,
+        [&](const unsigned int d, const unsigned int e) { return stress[d][e]; });
     }
 
     /** The force lanes of a node take the gradient, those of the momentum the offset. */
@@ -74,6 +63,31 @@ namespace Talus
     }
 
   private:
+    template <class Velocity, class Stress>
+    [[gnu::always_inline]] void add_up(const Number &m, const Number &V, const Velocity &v,
+                                       const dealii::Tensor<1, dim, Number> &b, const dealii::Tensor<2, dim, Number> &C,
+                                       const Stress &stress)
+    {
+      Number rows[8]     = {0., 0., 0., 0., 0., 0., 0., 0.};
+      rows[Fields::mass] = m; // Eq. (13)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        rows[Fields::momentum + d] = m * v(d); // Eq. (15)
+        rows[Fields::force + d]    = m * b[d]; // Eq. (12)
+      }
+      lanes_to_vectors<native_width>(rows, constant);
+      for (unsigned int e = 0; e < dim; ++e)
+      {
+        rows[Fields::mass] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          rows[Fields::momentum + d] = m * C[d][e];       // Eqs. (17), (19)
+          rows[Fields::force + d]    = -V * stress(d, e); // Eq. (11)
+        }
+        lanes_to_vectors<native_width>(rows, linear[e]);
+      }
+    }
+
     static typename Node::Mask is_force()
     {
       double lane[8];

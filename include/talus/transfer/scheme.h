@@ -114,7 +114,8 @@ namespace Talus
   {
   public:
     BodyForceOnBatch(const BodyForce<dim> &acceleration, const TransferArrays<dim> &arrays, const double time) :
-      acceleration(acceleration), uniform(acceleration.uniform_value(time)), time(time),
+      acceleration(acceleration), uniform(acceleration.uniform_value(time)),
+      is_uniform(!acceleration.depends_on_space()), time(time),
       place(acceleration.is_of_initial_position() ? arrays.initial_position : arrays.position)
     {
     }
@@ -122,17 +123,18 @@ namespace Talus
     template <class Batch>
     [[gnu::always_inline]] dealii::Tensor<1, dim, typename Batch::Number> operator()(const Batch &batch) const
     {
-      if (acceleration.depends_on_space())
-        return body_force(acceleration, load_vector<dim>(batch, place), time);
       dealii::Tensor<1, dim, typename Batch::Number> b;
       for (unsigned int d = 0; d < dim; ++d)
         b[d] = uniform[d];
+      if (!is_uniform)
+        b = body_force(acceleration, load_vector<dim>(batch, place), time);
       return b;
     }
 
   private:
     const BodyForce<dim>            &acceleration;
     const dealii::Tensor<1, dim>     uniform;
+    const bool                       is_uniform;
     const double                     time;
     const std::array<double *, dim> &place;
   };
