@@ -34,7 +34,7 @@ namespace Talus
       return text + ", or take a B-spline: linear kernels are unstable where particles pass the nodes.";
     const std::string treatment = form ? chosen("Kernel", "Boundary treatment") : "";
     if (treatment == "none" || treatment == "Steffen")
-      text += ", or correct the kernels near the boundary: 'Boundary treatment = WLS'";
+      text += ", or take complete kernels at the faces: 'Boundary treatment = ghost nodes'";
     return text + ".";
   }
 
