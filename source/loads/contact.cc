@@ -88,7 +88,8 @@ namespace Talus
   }
 
   template <int dim>
-  Tensor<1, dim> Contact<dim>::force_on(const Near<dim> &near, const Particles<dim> &particles, const double dt) const
+  std::array<Tensor<1, dim>, 2> Contact<dim>::forces_on(const Near<dim> &near, const Particles<dim> &particles,
+                                                        const double dt) const
   {
     const auto &[p, d, n] = near;
     const double   normal = -stiffness * barrier.slope(d) * area_of<dim>(particles.component(particles.volume, 0)[p]);
@@ -96,10 +97,10 @@ namespace Talus
     slip -= (slip * n) * n;
     const double speed = slip.norm();
     if (!(friction > 0 && speed > 0))
-      return normal * n;
+      return {{normal * n, Tensor<1, dim>()}};
     // Friction stops a particle, and does not turn it back.
     const double stop = particles.component(particles.mass, 0)[p] * speed / dt;
-    return normal * n - std::min(friction * normal * friction_share(speed / slip_speed), stop) / speed * slip;
+    return {{normal * n, -std::min(friction * normal * friction_share(speed / slip_speed), stop) / speed * slip}};
   }
 
   template <int dim>
@@ -118,7 +119,8 @@ namespace Talus
       forces.emplace_back();
       if (!(one.distance < barrier.reach))
         continue;
-      const Tensor<1, dim> f = forces.back() = force_on(one, particles, dt);
+      forces.back()          = forces_on(one, particles, dt);
+      const Tensor<1, dim> f = forces.back()[0] + forces.back()[1];
       force += f;
       kernel.evaluate(particles, one.p, one.p + 1, &stencil);
       for (unsigned int k = 0; k < stencil.size; ++k)
@@ -137,11 +139,12 @@ namespace Talus
   template <int dim>
   void Contact<dim>::finish(const Particles<dim> &particles)
   {
-    work = 0;
+    work = friction_work = 0;
     for (unsigned int k = 0; k < near.size(); ++k)
     {
       const Tensor<1, dim> now = particles.vector(particles.position, near[k].p);
-      work += forces[k] * (now - x[k]);
+      work += (forces[k][0] + forces[k][1]) * (now - x[k]);
+      friction_work += forces[k][1] * (now - x[k]);
       // Within the ball of its old distance there is no surface.
       if ((now - x[k]).norm() < near[k].distance ||
           surface->contains(Point<dim>(now)) == surface->contains(Point<dim>(x[k])))

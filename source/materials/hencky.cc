@@ -129,6 +129,15 @@ namespace Talus
     });
   }
 
+  void Hencky::plastic_work_densities(const MaterialRange &range, double *densities) const
+  {
+    // The flow keeps the volume: the work is that of the stress times J.
+    with_hardening([&](const auto &law) {
+      evaluate_points(range, densities,
+                      [law](const auto &point) { return law.work(point.state(plastic_strain)) / volume_ratio(point); });
+    });
+  }
+
   namespace
   {
     /** The volumetric strain theta of a mean stress: mean / K = theta exp(-theta), which has a greatest value 1/e. */

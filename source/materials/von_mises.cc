@@ -86,6 +86,13 @@ namespace Talus
     with_hardening([&](const auto &law) { radial_return(range, lame_modulus(), shear_modulus(), law); });
   }
 
+  void VonMises::plastic_work_densities(const MaterialRange &range, double *densities) const
+  {
+    with_hardening([&](const auto &law) {
+      evaluate_points(range, densities, [law](const auto &point) { return law.work(point.state(0)); });
+    });
+  }
+
   namespace
   {
     const Register<Material, VonMises> registration("von Mises",

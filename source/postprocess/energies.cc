@@ -45,20 +45,22 @@ namespace Talus
     }
 
     template <int dim>
-    double strain_energy(WorkingSet<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials)
+    void add_energies(WorkingSet<dim> &particles, const std::vector<std::unique_ptr<Material>> &materials,
+                      Totals<dim> &sum)
     {
       const auto          volume = particles.component(particles.volume, 0);
       std::vector<double> densities;
-      double              energy = 0;
       for (unsigned int m = 0; m < materials.size(); ++m)
       {
         const MaterialRange range = material_range(particles, m, /* dt = */ 0.);
         densities.resize(range.end - range.begin);
         materials[m]->strain_energy_densities(range, densities.data());
         for (unsigned int p = range.begin; p < range.end; ++p)
-          energy += volume[p] * densities[p - range.begin];
+          sum.strain_energy += volume[p] * densities[p - range.begin];
+        materials[m]->plastic_work_densities(range, densities.data());
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          sum.plastic_work += volume[p] * densities[p - range.begin];
       }
-      return energy;
     }
   } // namespace
 
@@ -100,10 +102,11 @@ namespace Talus
       sum.angular_momentum += orbital;
       sum.total_angular_momentum += orbital + mass[p] * rotation(transfer.affine_moment(particles, p));
     }
-    sum.strain_energy = strain_energy(particles, materials);
+    add_energies(particles, materials, sum);
 
     Reduction reduction;
     sum.add_to(reduction);
+    reduction.sum(sum.plastic_work);
     reduction.run(communicator);
     return sum;
   }

@@ -160,6 +160,14 @@ namespace Talus
     energy.add_to(table);
     table.add("energy residual", "energy",
               [this] { return energy.residual(totals.kinetic_energy, totals.strain_energy); });
+    if (model.account.is_on)
+    {
+      energy.add_losses_to(table);
+      table.add("plastic work", "energy", totals.plastic_work);
+      table.add("unaccounted energy", "energy", [this] {
+        return energy.unaccounted(energy.residual(totals.kinetic_energy, totals.strain_energy), totals.plastic_work);
+      });
+    }
     table.add("lost momentum", "mass length/time", lost_momentum);
     fracture.add_to(table);
     model.boundary.add_to(table);

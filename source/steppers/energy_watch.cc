@@ -50,6 +50,7 @@ namespace Talus
   {
     initial_energy = first.kinetic_energy + strain_energy;
     most_available = initial_energy;
+    kinetic_energy = first.kinetic_energy;
     // Round-off of a body at rest: velocities of a millionth of the wave speed.
     floor = 1e-12 * first.mass * first.signal_speed * first.signal_speed;
   }
@@ -65,7 +66,14 @@ namespace Talus
       work += load->work;
     traction_work += work;
     for (const auto &contact : model.contacts.all)
+    {
       contact_work += contact->work;
+      friction_work += contact->friction_work;
+    }
+    transfer_loss += kinetic_energy - report.kinetic_energy + model.account.change + model.account.second_loss;
+    wall_loss += model.account.wall_loss;
+    integration_loss += model.account.integration_loss;
+    kinetic_energy = report.kinetic_energy;
     damping_energy -= model.boundary.damping.work;
     compare(model, "kinetic energy", report.kinetic_energy, moment, [&] {
       std::vector<double> speeds(model.particles.size());

@@ -173,10 +173,19 @@ namespace Talus
       const Timing::Scope scope(*timing, f_bar);
       model.f_bar.apply(model.materials, *model.kernel, dt, particles, model.grid);
     }
+    const auto count = [&](const bool is_end) {
+      if (model.account.is_on)
+        sweep.add(stress, [&, is_end](const unsigned int begin, const unsigned int end) {
+          for (const auto &range : ranges)
+            model.account.count_stress(intersection(range, begin, end), is_end);
+        });
+    };
+    count(/* is_end = */ false);
     sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
       for (unsigned int m = 0; m < ranges.size(); ++m)
         model.materials[m]->update(intersection(ranges[m], begin, end)); // Eqs. (28)-(30)
     });
+    count(/* is_end = */ true);
     sweep.add(relocate, [&](const unsigned int begin, const unsigned int end) {
       particles.relocate(begin, end);
       watch->look_at(begin, end);

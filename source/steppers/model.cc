@@ -49,6 +49,8 @@ namespace Talus
                   Patterns::Double());
     add_parameter("F-bar", f_bar.is_on,
                   "Materials see volumes that are averaged over the grid, against volumetric locking.");
+    add_parameter("Energy account", account.is_on,
+                  "Statistics say what transfer, walls, friction and plastic flow have taken of the energy.");
   }
 
   template <int dim>
@@ -146,6 +148,7 @@ namespace Talus
     grid.fields.add_copies_to_owners();
     walls.collect();
     transfer->complete(grid);
+    account.start(grid, walls);
     if (walls.has_ghosts())
       boundary.solve(time + dt, dt, walls, grid);
     else
@@ -155,6 +158,7 @@ namespace Talus
     }
     grid.fields.update_copies();
     walls.fill();
+    account.finish(dt, grid, walls);
   }
 
   template <int dim>
@@ -210,6 +214,7 @@ namespace Talus
     boundary.add_to(reduction);
     tractions.add_to(reduction);
     contacts.add_to(reduction);
+    account.add_to(reduction);
   }
 
   template <int dim>

@@ -23,6 +23,8 @@ template <int dim>
 void musl_energy();
 template <int dim>
 void droplet();
+template <int dim>
+void energy_account();
 
 int main(int argc, char **argv)
 {
@@ -49,5 +51,7 @@ int main(int argc, char **argv)
                     {"locking, 2D", locking<2>},
                     {"locking, 3D", locking<3>},
                     {"droplet above a sea, 2D", droplet<2>},
-                    {"droplet above a sea, 3D", droplet<3>}});
+                    {"droplet above a sea, 3D", droplet<3>},
+                    {"energy account, 2D", energy_account<2>},
+                    {"energy account, 3D", energy_account<3>}});
 }

@@ -51,6 +51,14 @@ namespace Talus
     /** Gives the ghosts their velocities and increments, when the copies have theirs. */
     void fill();
 
+    /** Calls body(place) for this rank's ghosts. */
+    template <class Body>
+    void for_each_owned_ghost(const Body &body) const
+    {
+      for (unsigned int g = 0; g < n_owned_ghosts; ++g)
+        body(ghost_place[g]);
+    }
+
     /** This rank's active nodes that are not wall nodes. */
     std::vector<unsigned int> plain_nodes;
 

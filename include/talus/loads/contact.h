@@ -44,6 +44,7 @@ namespace Talus
     {
       reduction.sum(force);
       reduction.sum(work);
+      reduction.sum(friction_work);
       reduction.max(inverse_step);
       reduction.max(nearness);
       reduction.any(is_broken);
@@ -54,10 +55,11 @@ namespace Talus
     const std::string name;
 
     // Of the last step: of this rank's particles, then of all.
-    dealii::Tensor<1, dim> force;            // on the particles [force]
-    double                 work         = 0; // on them [energy]
-    double                 inverse_step = 0; // of the largest step that is allowed next [1/time]
-    double                 nearness     = 0; // 1 less the least distance over the barrier's reach, at least 0 [1]
+    dealii::Tensor<1, dim> force;             // on the particles [force]
+    double                 work          = 0; // on them [energy]
+    double                 friction_work = 0; // its share of friction [energy]
+    double                 inverse_step  = 0; // of the largest step that is allowed next [1/time]
+    double                 nearness      = 0; // 1 less the least distance over the barrier's reach, at least 0 [1]
 
     double reach() const { return barrier.reach; }
 
@@ -65,19 +67,22 @@ namespace Talus
     /** Finds the particles that are near, and what they allow. */
     void look_around(const Particles<dim> &particles);
 
-    dealii::Tensor<1, dim> force_on(const Near<dim> &near, const Particles<dim> &particles, const double dt) const;
+    /** Of the barrier and of friction. */
+    std::array<dealii::Tensor<1, dim>, 2> forces_on(const Near<dim> &near, const Particles<dim> &particles,
+                                                    const double dt) const;
 
     std::unique_ptr<ContactSurface<dim>> surface;
 
     double distance = 0, pressure = 0, friction = 0, sticking_speed = 0, step_fraction = 0.5;
 
-    bool                                is_broken = false; // a particle has run through
-    std::string                         failure;           // of this rank: which did so where
-    Barrier                             barrier{0};
-    double                              stiffness = 0, slip_speed = 0;
-    std::vector<Near<dim>>              near;
-    std::vector<dealii::Tensor<1, dim>> x, forces; // of those that are near: place, and force there
-    std::uint64_t                       arrangement = 0;
+    bool                                               is_broken = false; // a particle has run through
+    std::string                                        failure;           // of this rank: which did so where
+    Barrier                                            barrier{0};
+    double                                             stiffness = 0, slip_speed = 0;
+    std::vector<Near<dim>>                             near;
+    std::vector<dealii::Tensor<1, dim>>                x;      // of those that are near
+    std::vector<std::array<dealii::Tensor<1, dim>, 2>> forces; // there
+    std::uint64_t                                      arrangement = 0;
   };
 
   /** The contacts of a run. */

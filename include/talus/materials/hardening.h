@@ -7,7 +7,8 @@ namespace Talus
   /**
    * How the yield stress sigma_Y [stress] depends on the equivalent plastic strain. Each law gives the strength at a
    * strain, and the strain x that a trial stress q >= sigma_Y adds, from
-   * @f[ 3 G x = q - \sigma_Y(\bar\varepsilon + x) . @f]
+   * @f[ 3 G x = q - \sigma_Y(\bar\varepsilon + x) , @f]
+   * and the work that the flow up to a strain has taken, the integral of the strength over it [energy/volume].
    * Functions of one number, double or SIMD. Test: tests/materials/von_mises.cc.
    */
   struct PerfectPlasticity
@@ -24,6 +25,11 @@ namespace Talus
     {
       return yield_stress;
     }
+    template <typename Number>
+    Number work(const Number &strain) const
+    {
+      return yield_stress * strain;
+    }
   };
 
   struct LinearHardening
@@ -39,6 +45,11 @@ namespace Talus
     Number strength(const Number &strain) const
     {
       return yield_stress + modulus * strain;
+    }
+    template <typename Number>
+    Number work(const Number &strain) const
+    {
+      return (yield_stress + 0.5 * modulus * strain) * strain;
     }
   };
 
@@ -69,6 +80,11 @@ namespace Talus
     Number strength(const Number &strain) const
     {
       return residual + range * exp(-rate * strain);
+    }
+    template <typename Number>
+    Number work(const Number &strain) const
+    {
+      return residual * strain + range / rate * (1. - exp(-rate * strain));
     }
   };
 } // namespace Talus

@@ -29,6 +29,7 @@ namespace Talus
     /** An upper bound, sharp without stress: rho c^2 <= (K + 4/3 G)/J - the least principal stress. */
     void wave_speeds(const MaterialRange &range, double *speeds) const override;
     void strain_energy_densities(const MaterialRange &range, double *densities) const override;
+    void plastic_work_densities(const MaterialRange &range, double *densities) const override;
 
     std::string refusal(const std::array<double, 6> &initial_stress) const override;
   };

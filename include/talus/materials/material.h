@@ -6,6 +6,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -60,6 +61,15 @@ namespace Talus
 
     /** Elastic energy per current volume [stress] at each particle of the range; the first goes to densities[0]. */
     virtual void strain_energy_densities(const MaterialRange &range, double *densities) const = 0;
+
+    /**
+     * What plastic flow has taken since the start, per current volume [stress], as strain_energy_densities(); zeros
+     * where that does not follow from the state.
+     */
+    virtual void plastic_work_densities(const MaterialRange &range, double *densities) const
+    {
+      std::fill_n(densities, range.end - range.begin, 0.);
+    }
 
     /** Ratio of horizontal to vertical stress of a layer at rest: nu / (1 - nu). */
     virtual double rest_stress_ratio() const = 0;

@@ -26,6 +26,7 @@ namespace Talus
 
     std::vector<std::string> state_names() const override { return {"equivalent plastic strain"}; }
     void                     update(const MaterialRange &range) const override;
+    void                     plastic_work_densities(const MaterialRange &range, double *densities) const override;
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 

@@ -19,6 +19,7 @@ namespace Talus
     double                 volume         = 0; // [volume]
     double                 kinetic_energy = 0; // sum m v . v / 2 [energy]
     double                 strain_energy  = 0; // sum V w(sigma) [energy]
+    double                 plastic_work   = 0; // what plastic flow has taken, in no column of its own [energy]
     dealii::Tensor<1, dim> momentum;           // sum m v [mass length/time]
     Rotation               angular_momentum;   // sum m x cross v, about the origin [mass length^2/time]
 

@@ -38,6 +38,12 @@ namespace Talus
              (initial_energy + body_force_work + condition_work + traction_work + contact_work);
     }
 
+    /** What is left of the residual when all losses that are known are added to it [energy]. */
+    double unaccounted(const double residual, const double plastic_work) const
+    {
+      return residual + transfer_loss + wall_loss + integration_loss + plastic_work;
+    }
+
     /** What was put in and taken out. */
     void add_to(Table &table) const
     {
@@ -48,16 +54,30 @@ namespace Talus
       table.add("damping energy", "energy", damping_energy);
     }
 
+    /** What the numbers of EnergyAccount say. */
+    void add_losses_to(Table &table) const
+    {
+      table.add("transfer loss", "energy", transfer_loss);
+      table.add("wall loss", "energy", wall_loss);
+      table.add("integration loss", "energy", integration_loss);
+      table.add("contact friction work", "energy", friction_work);
+    }
+
   private:
     /** Throws when `energy`, called `name`, is too large; then asks `culprit` for the particle. */
     void compare(const Model<dim> &model, const std::string &name, const double energy, const Moment &moment,
                  const std::function<std::string()> &culprit);
 
-    double body_force_work = 0; // [energy]
-    double condition_work  = 0; // [energy]
-    double traction_work   = 0; // [energy]
-    double contact_work    = 0; // [energy]
-    double damping_energy  = 0; // taken by local damping [energy]
+    double body_force_work  = 0; // [energy]
+    double condition_work   = 0; // [energy]
+    double traction_work    = 0; // [energy]
+    double contact_work     = 0; // [energy]
+    double damping_energy   = 0; // taken by local damping [energy]
+    double transfer_loss    = 0; // kinetic energy of particles that nodes have not, and back [energy]
+    double wall_loss        = 0; // [energy]
+    double integration_loss = 0; // of free nodes [energy]
+    double friction_work    = 0; // share of the contact work [energy]
+    double kinetic_energy   = 0; // after the last step [energy]
     double initial_energy = 0, most_available = 0, floor = 0;
   };
 } // namespace Talus

@@ -7,6 +7,7 @@
 #include <talus/particles/material_range.h>
 #include <talus/particles/overlaps.h>
 #include <talus/particles/particles.h>
+#include <talus/steppers/energy_account.h>
 #include <talus/transfer/f_bar.h>
 #include <talus/transfer/tractions.h>
 #include <talus/transfer/transfer.h>
@@ -74,6 +75,7 @@ namespace Talus
     VolumeSmoothing<dim>                    smoothing;
     FBar<dim>                               f_bar;
     BodyForce<dim>                          acceleration; // body force per mass
+    EnergyAccount<dim>                      account;
 
   private:
     void build_bodies(Parameters &parameters);

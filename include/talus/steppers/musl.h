@@ -17,6 +17,8 @@ namespace Talus
   class Musl
   {
   public:
+    Musl();
+
     /** Remembers where the particles are, before they move. */
     void start(const Particles<dim> &particles);
 
@@ -26,6 +28,7 @@ namespace Talus
   private:
     void exchange_positions(Particles<dim> &particles);
 
+    BodyForce<dim>                       no_force;
     std::array<std::vector<double>, dim> position; // where the particles are not: x^n, and x^{n+1} within apply()
   };
 } // namespace Talus
