@@ -49,7 +49,7 @@ namespace Talus
 
   template <int dim>
   void Particles<dim>::create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                              const std::vector<std::unique_ptr<Material>> &materials)
+                              const std::vector<std::unique_ptr<Material>> &materials, const double smallest_share)
   {
     this->grid = &grid;
     handler =
@@ -111,8 +111,8 @@ namespace Talus
       check_amount(*bodies[b], {n_created[b], volume_created[b]}, wanted[b]);
       n_global += n_created[b];
     }
-    // Of the order of 1e-12 of the largest nodal mass, which is that of a few particles.
-    grid.mass_floor                = 1e-12 * Utilities::MPI::max(largest_mass, grid.communicator);
+    // The largest nodal mass is that of a few particles.
+    grid.mass_floor                = smallest_share * Utilities::MPI::max(largest_mass, grid.communicator);
     const unsigned int n_materials = *std::max_element(body_material.begin(), body_material.end()) + 1;
     this->material_begin.assign(n_materials + 1, 0);
     sort();
@@ -143,7 +143,7 @@ namespace Talus
   template unsigned int Particles<dim>::count(const Grid<dim> &, const std::vector<std::unique_ptr<Body<dim>>> &,      \
                                               const typename Grid<dim>::CellIterator &);                               \
   template void         Particles<dim>::create(Grid<dim> &, std::vector<std::unique_ptr<Body<dim>>> &,                 \
-                                               const std::vector<std::unique_ptr<Material>> &);                        \
+                                               const std::vector<std::unique_ptr<Material>> &, const double);          \
   template void         Particles<dim>::load(const unsigned int);
   INSTANTIATE(2)
   INSTANTIATE(3)

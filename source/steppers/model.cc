@@ -124,7 +124,7 @@ namespace Talus
     f_bar.add_fields(particles);
     if (!bodies.empty())
     {
-      particles.create(grid, bodies, materials);
+      particles.create(grid, bodies, materials, kernel->smallest_share());
       overlaps.check(particles, bodies, grid);
     }
     for (auto &condition : boundary.conditions)

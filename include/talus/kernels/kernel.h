@@ -71,6 +71,12 @@ namespace Talus
      */
     virtual std::optional<double> greatest_stiffness(const double /* a */, const double /* b */) const { return {}; }
 
+    /**
+     * Nodes of less than this share of a particle's mass count as empty. What they are given by a gradient is lost: it
+     * must be next to nothing for such a weight.
+     */
+    virtual double smallest_share() const { return 1e-12; }
+
     // Forms for which loops are compiled, if the kernel has one; all others run through lists.
     virtual std::optional<ProductForm<dim>> product_form() const { return {}; }
     virtual std::optional<DomainForm<dim>>  domain_form() const { return {}; }

@@ -21,11 +21,11 @@ namespace Talus
   public:
     /**
      * Creates the particles of all bodies in the cells this rank owns. Throws EntryError for an empty body, for one
-     * that does not lie in the grid, and where number or volume of a body's particles are not those of its shape.
-     * Collective.
+     * that does not lie in the grid, and where number or volume of a body's particles are not those of its shape. Nodes
+     * of at most `smallest_share` of the largest particle's mass will count as empty. Collective.
      */
     void create(Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                const std::vector<std::unique_ptr<Material>> &materials);
+                const std::vector<std::unique_ptr<Material>> &materials, const double smallest_share);
 
     /** Number of particles that the bodies put into a cell; before create(). */
     static unsigned int count(const Grid<dim> &grid, const std::vector<std::unique_ptr<Body<dim>>> &bodies,

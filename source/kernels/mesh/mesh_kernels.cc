@@ -114,6 +114,9 @@ namespace Talus
     public:
       using Umls<dim>::Umls;
 
+      /** Gradients are of the order of the root of a small weight, and both are exact down to squares of round-off. */
+      double smallest_share() const override { return 1e-34; }
+
     private:
       void prepare() override { feet = foot_coordinates(*this->mesh); }
 

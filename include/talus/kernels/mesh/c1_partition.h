@@ -53,13 +53,18 @@ namespace Talus
 
   namespace internal
   {
-    /** f(t) = t^2 (3 - 2t) and f'(t), t clipped to [0, 1]. */
+    /**
+     * f(t) = t^2 (3 - 2t) and its slope, t clipped to [0, 1], and f(u) = 1 - f(t) for u = 1 - t: each with all its
+     * digits where it is small, so that value and slope vanish together.
+     */
     template <class Number>
-    void ramp(Number t, Number &value, Number &slope)
+    void ramp(Number t, Number u, Number &value, Number &rest, Number &slope)
     {
       t     = min(max(t, Number(0.)), Number(1.));
+      u     = min(max(u, Number(0.)), Number(1.));
       value = t * t * (3. - 2. * t);
-      slope = 6. * t * (1. - t);
+      rest  = u * u * (3. - 2. * u);
+      slope = 6. * t * u;
     }
 
     /**
@@ -142,11 +147,9 @@ namespace Talus
       for (int a = 0; a < 3; ++a)
       {
         const int j = (a + 1) % 3, k = (a + 2) % 3;
-        Number    f, slope;
-        ramp<Number>(B[j] + lambda[a][j] * B[a], f, slope);
+        Number    slope;
         values[a][a] = 0.;
-        values[a][j] = f;
-        values[a][k] = 1. - f;
+        ramp<Number>(B[j] + lambda[a][j] * B[a], B[k] + lambda[a][k] * B[a], values[a][j], values[a][k], slope);
         shares.eta[j] += W[a] * values[a][j];
         shares.eta[k] += W[a] * values[a][k];
         slope *= W[a];
@@ -171,9 +174,9 @@ namespace Talus
   template <class Number>
   [[gnu::always_inline]] inline C1Shares<2, Number> c1_shares(const Feet<1, Number> &, const std::array<Number, 2> &B)
   {
-    Number f, slope;
-    internal::ramp<Number>(B[0], f, slope);
-    return {{f, 1. - f}, {{slope, 0.}, {-slope, 0.}}};
+    Number f, rest, slope;
+    internal::ramp<Number>(B[0], B[1], f, rest, slope);
+    return {{f, rest}, {{slope, 0.}, {-slope, 0.}}};
   }
 
   template <class Number>
