@@ -2,6 +2,7 @@
 #include <talus/core/registry.h>
 #include <talus/steppers/deformation.h>
 #include <talus/steppers/explicit_step.h>
+#include <talus/steppers/fastest_vibration.h>
 #include <talus/steppers/sweep.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@ namespace Talus
     this->add_parameter(
       "Courant number", courant_number,
       "Step size over its critical value, Eq. (37) [1]; 0: what lone particles of a fluid bear with this "
-      "kernel and any transfer, 0.4 in 2D and 0.33 in 3D with quadratic B-splines.",
+      "kernel and any transfer, 0.4 in 2D and 0.33 in 3D with quadratic B-splines; on a mesh what full bodies bear.",
       this->prm, Patterns::Double());
     this->add_parameter("Step size", fixed_step_size, "Fixed step size [time]; 0: by the Courant number each step.",
                         this->prm, Patterns::Double(0));
@@ -59,12 +60,22 @@ namespace Talus
       // FLIP and PIC bear least.
       const auto limit = model.lone_particle_limit({{0.5, 0.}});
       courant_number   = limit ? std::floor(100 * *limit) / 100 : dim == 2 ? 0.4 : 0.33;
+      if (model.grid.keeps_places())
+        courant_number = full_body_limit(model);
     }
     watch.emplace(model);
     const auto ranges = material_ranges(model.particles, /* dt = */ 0.);
     watch->start(ranges, /* time = */ 0., /* dt = */ 0.);
     watch->look_at(0, model.particles.size());
     return watch->finish(/* displacement = */ 0.);
+  }
+
+  template <int dim>
+  double Explicit<dim>::full_body_limit(const Model<dim> &model) const
+  {
+    // Full bodies on a mesh bear 2 / omega, with FLIP and PIC sqrt(2) / omega; a third is left for their edges.
+    const double dt = 1 / fastest_vibration(*model.kernel, model.grid);
+    return std::floor(100 * dt / model.grid.smallest_spacing) / 100;
   }
 
   template <int dim>

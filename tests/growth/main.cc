@@ -138,6 +138,8 @@ int main(int argc, char **argv)
               {"lone particles 3D", lone_particles<3>},
               {"arrangements 2D", [] { arrangements<2>(100); }},
               {"arrangements 3D", [] { arrangements<3>(25); }},
+              {"meshes 2D", meshes<2>},
+              {"meshes 3D", meshes<3>},
               {"long: arrangements 2D", [] { arrangements<2>(2000); }},
               {"long: arrangements 3D", [] { arrangements<3>(500); }}});
 }

@@ -34,6 +34,9 @@ namespace Talus
     /** Nodes of less than `mass_cutoff` times the lightest particle's mass count as empty. Collective. */
     void raise_mass_floor(Model<dim> &model) const;
 
+    /** The Courant number on a mesh: what full bodies bear with any transfer. Collective. */
+    double full_body_limit(const Model<dim> &model) const;
+
     void   move_nodes(Model<dim> &model, const double time, const double dt);
     Report move_particles(Model<dim> &model, const double time, const double dt);
 
