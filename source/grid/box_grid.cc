@@ -158,7 +158,8 @@ namespace Talus
       bool         all_active = true;
       for_each_index(node_index[i], 2, [&](const auto &corner) {
         cell[v]    = lattice.node_at(corner);
-        all_active = all_active && is_active[cell[v++]];
+        all_active = is_active[cell[v]] && all_active;
+        ++v;
       });
       if (all_active || !only_active)
         result.push_back(cell);

@@ -97,7 +97,7 @@ def case_damping(runs):
     period = 0.2
     for alpha in (0.05, 0.2, 0.5):
         half = period / 4 * (1 / math.sqrt(1 - alpha) + 1 / math.sqrt(1 + alpha))
-        s = runs.statistics("bar_2d.prm", f"alpha_{alpha}", f"Run/Local damping = {alpha}",
+        s = runs.statistics("bar_2d.prm", f"alpha_{alpha}", f"Run/Local damping = {alpha}", "Grid/Spacing = 0.025",
                             f"Run/End time = {4.4 * half}")
         peaks = maxima(s["time"], s["kinetic energy"])
         runs.check(f"alpha = {alpha}: number of passages less four", len(peaks) - 4, 0.5)
