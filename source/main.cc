@@ -2,24 +2,28 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/parameters.h>
 #include <talus/simulation/list.h>
+#include <talus/simulation/resume.h>
 #include <talus/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
+#include <optional>
 
 using namespace Talus;
 
 namespace
 {
   template <int dim>
-  void run(Parameters &parameters, const CommandLine &command_line)
+  void run(Parameters &parameters, const CommandLine &command_line, const Resume *resume)
   {
     References<dim>::allow_idle_entries(parameters);
     parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
     Simulation<dim> simulation(parameters, MPI_COMM_WORLD);
     parameters.parse();
-    if (!command_line.prints_parameters)
+    if (resume != nullptr)
+      simulation.go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"));
+    else if (!command_line.prints_parameters)
       simulation.run();
     else if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       parameters.print(std::cout, /* with_help = */ true);
@@ -27,13 +31,17 @@ namespace
 
   void run_file(const CommandLine &command_line)
   {
-    Parameters parameters(command_line.file_name, command_line.overrides);
+    std::optional<Resume> resume;
+    if (!command_line.directory.empty())
+      resume.emplace(command_line.directory, MPI_COMM_WORLD);
+    Parameters parameters =
+      resume ? resume->parameters(command_line.overrides) : Parameters(command_line.file_name, command_line.overrides);
     try
     {
       if (parameters.value("", "Dimension", "2") == "2")
-        run<2>(parameters, command_line);
+        run<2>(parameters, command_line, resume ? &*resume : nullptr);
       else
-        run<3>(parameters, command_line);
+        run<3>(parameters, command_line, resume ? &*resume : nullptr);
     }
     catch (const EntryError &error)
     {
@@ -54,7 +62,7 @@ int main(int argc, char **argv)
       std::cout << "talus " << version() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
     else if (command_line.wants_list && is_root)
       list_registered(std::cout);
-    else if (!command_line.file_name.empty())
+    else if (!command_line.file_name.empty() || !command_line.directory.empty())
       run_file(command_line);
   });
 }

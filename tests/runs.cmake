@@ -147,6 +147,23 @@ foreach(case incline_2d incline_3d account damping energy bar_2d bar_3d pressure
   endforeach()
 endforeach()
 
+# Runs that are stopped and resumed.
+foreach(case boxes others undisturbed signals killed directory h5py)
+  foreach(ranks 1 2)
+    talus_add_run(checkpoint.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
+      $<TARGET_FILE:talus> ${work}/checkpoint/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
+talus_add_run(checkpoint.ranks 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
+  $<TARGET_FILE:talus> ${work}/checkpoint/ranks ranks 1 ${MPIRUN})
+foreach(ranks 2 4)
+  talus_add_run(checkpoint.balance.mpirun=${ranks} 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
+    $<TARGET_FILE:talus> ${work}/checkpoint/balance.${ranks} balance ${ranks} ${MPIRUN})
+endforeach()
+talus_add_run(checkpoint.killed_often 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
+  $<TARGET_FILE:talus> ${work}/checkpoint/killed_often killed_often 2 ${MPIRUN})
+set_tests_properties(checkpoint.killed_often PROPERTIES LABELS long TIMEOUT 1800)
+
 # What particles remember, and what files say of them.
 foreach(case path silo_2d silo_3d drop initial_stress far mirror_reaction water)
   foreach(ranks 1 2)

@@ -3,7 +3,7 @@
 #include <talus/core/function.h>
 #include <talus/core/registry.h>
 
-#include <utility>
+#include <map>
 #include <unordered_map>
 
 namespace Talus
@@ -154,6 +154,33 @@ namespace Talus
                 const typename Prescribed<dim>::Contact &contact) override
       {
         next[std::size_t{node} * dim + axis] = {{contact.account, contact.mean}};
+      }
+
+      /** Accounts by the places of their nodes, which are the same on any number of ranks. */
+      void serialize(Archive &archive, const Grid<dim> &grid) override
+      {
+        std::vector<double> numbers; // position, axis, account and mean of each
+        for (const auto &[key, account] : next.empty() ? accounts : next)
+        {
+          const Point<dim> x = grid.node_position(key / dim);
+          numbers.insert(numbers.end(), x.begin_raw(), x.end_raw());
+          numbers.insert(numbers.end(), {static_cast<double>(key % dim), account[0], account[1]});
+        }
+        archive.of_rank("accounts", numbers);
+        if (!archive.is_reading())
+          return;
+        std::map<std::vector<double>, unsigned int> nodes;
+        for (const auto &list : this->owned_nodes())
+          for (const unsigned int i : list)
+          {
+            const Point<dim> x                  = grid.node_position(i);
+            nodes[{x.begin_raw(), x.end_raw()}] = i;
+          }
+        forget();
+        for (unsigned int k = 0; k + dim + 3 <= numbers.size(); k += dim + 3)
+          if (const auto node = nodes.find({&numbers[k], &numbers[k] + dim}); node != nodes.end())
+            accounts[std::size_t{node->second} * dim + static_cast<unsigned int>(numbers[k + dim])] = {
+              {numbers[k + dim + 1], numbers[k + dim + 2]}};
       }
 
       void forget() override

@@ -30,6 +30,12 @@ namespace Talus
         AssertThrow(i + 1 < argc, InputError("--set needs \"Section/Entry = value\" after it."));
         overrides.push_back(argv[++i]);
       }
+      else if (word == "--resume")
+      {
+        AssertThrow(i + 1 < argc, InputError("--resume needs the directory of the run that is to go on after it."));
+        directory = argv[++i];
+        AssertThrow(!directory.empty(), InputError("--resume: the directory has no name."));
+      }
       else
       {
         AssertThrow(word[0] != '-', InputError("Unknown option '" + word + "'. Try talus --help."));
@@ -38,7 +44,10 @@ namespace Talus
         file_name = word;
       }
     }
-    AssertThrow(!file_name.empty() || wants_help || wants_version || wants_list,
+    AssertThrow(directory.empty() || (file_name.empty() && !prints_parameters),
+                InputError("--resume takes the parameters from the checkpoint. Leave out the parameter file and "
+                           "--parameters; --set may change some entries."));
+    AssertThrow(!file_name.empty() || !directory.empty() || wants_help || wants_version || wants_list,
                 InputError("No parameter file given. Try talus --help."));
   }
 
@@ -47,6 +56,7 @@ namespace Talus
     return "Talus: the material point method on deal.II\n"
            "\n"
            "  talus FILE.prm [--set \"Section/Entry = value\"]...   run\n"
+           "  talus --resume DIRECTORY [--set ...]...             go on with a run from its last checkpoint\n"
            "  talus --parameters FILE.prm                         print all entries of the chosen objects, with help\n"
            "  talus --list                                        print all kernels, transfers, materials, ...\n"
            "  talus --help | --version\n"

@@ -55,15 +55,41 @@ namespace Talus
       add_override(text);
   }
 
-  Parameters Parameters::from_text(const std::string &text)
+  Parameters Parameters::from_text(const std::string &text, const std::string &name,
+                                   const std::vector<std::string> &overrides)
   {
     ParameterAcceptor::prm.clear();
     Parameters               parameters;
     std::istringstream       in(text);
     std::vector<std::string> path;
-    parameters.file_name = "text";
-    parameters.scan(in, "text", path);
+    parameters.file_name = name;
+    parameters.scan(in, name, path);
+    for (const auto &override_text : overrides)
+      parameters.add_override(override_text);
     return parameters;
+  }
+
+  std::string Parameters::settings_text() const
+  {
+    std::ostringstream       text;
+    std::vector<std::string> open;
+    for (const auto &[key, setting] : settings)
+    {
+      if (is_left_out(key))
+        continue;
+      const auto  path   = split(parent(key));
+      std::size_t common = 0;
+      while (common < std::min(path.size(), open.size()) && path[common] == open[common])
+        ++common;
+      for (; open.size() > common; open.pop_back())
+        text << "end\n";
+      for (; open.size() < path.size(); open.push_back(path[open.size()]))
+        text << "subsection " << path[open.size()] << '\n';
+      text << "set " << leaf(key) << " = " << setting.value << '\n';
+    }
+    for (; !open.empty(); open.pop_back())
+      text << "end\n";
+    return text.str();
   }
 
   void Parameters::scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path)

@@ -3,6 +3,7 @@
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <iostream>
 #include <numeric>
 
@@ -34,7 +35,27 @@ namespace Talus
   {
     this->reach = reach;
     my_rank     = Utilities::MPI::this_mpi_process(communicator);
-    create_triangulation(weight);
+    create_triangulation();
+    share_out(weight);
+  }
+
+  template <int dim>
+  void BoxGrid<dim>::repartition(const std::vector<double> &counts)
+  {
+    share_out(this->weight_by(counts));
+  }
+
+  template <int dim>
+  void BoxGrid<dim>::share_out(const CellWeight &weight)
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+    {
+      const auto connection = this->p4est.signals.weight.connect(
+        // Material rules: cells without it are free but for their share of memory. p4est's weights have 31 bits.
+        [&](const auto &cell, const auto) { return 1 + 1000 * std::min(weight(CellIterator(cell)), 1u << 20); });
+      this->p4est.repartition();
+      connection.disconnect();
+    }
     number_nodes();
     fill_tables(reach.layers);
     knows_all_stencils = Utilities::MPI::n_mpi_processes(communicator) == 1;
@@ -42,7 +63,7 @@ namespace Talus
   }
 
   template <int dim>
-  void BoxGrid<dim>::create_triangulation(const CellWeight &weight)
+  void BoxGrid<dim>::create_triangulation()
   {
     const unsigned int        refinements = common_refinements(lattice.n_cells);
     std::vector<unsigned int> coarse_counts(dim);
@@ -62,15 +83,6 @@ namespace Talus
     }
     GridGenerator::subdivided_hyper_rectangle(this->p4est, coarse_counts, lower, upper, true);
     this->p4est.refine_global(refinements);
-
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-    {
-      const auto connection = this->p4est.signals.weight.connect(
-        // Material rules: cells without it are free but for their share of memory. p4est's weights have 31 bits.
-        [&](const auto &cell, const auto) { return 1 + 1000 * std::min(weight(CellIterator(cell)), 1u << 20); });
-      this->p4est.repartition();
-      connection.disconnect();
-    }
   }
 
   template <int dim>
@@ -164,6 +176,9 @@ namespace Talus
       if (all_active || !only_active)
         result.push_back(cell);
     }
+    // The order of copies hangs on how deal.II has come to this share of the cells.
+    std::sort(result.begin(), result.end(),
+              [&](const CellNodes &a, const CellNodes &b) { return nodes.place(a[0]) < nodes.place(b[0]); });
     return result;
   }
 

@@ -1,5 +1,8 @@
 #include <talus/grid/grid.h>
 
+#include <memory>
+#include <unordered_map>
+
 namespace Talus
 {
   using namespace dealii;
@@ -11,6 +14,24 @@ namespace Talus
     ParameterAcceptor(section),
     communicator(communicator), triangulation(triangulation), dof_handler(dof_handler), mapping(mapping)
   {
+  }
+
+  template <int dim>
+  typename Grid<dim>::CellWeight Grid<dim>::weight_by(const std::vector<double> &counts) const
+  {
+    // Numbers of cells are known when the first weight is asked for.
+    const auto n_in_cell = std::make_shared<std::unordered_map<std::size_t, unsigned int>>();
+    return [this, &counts, n_in_cell](const CellIterator &cell) {
+      if (n_in_cell->empty())
+        for (std::size_t k = 0; k + dim < counts.size(); k += dim + 1)
+        {
+          Point<dim> centre;
+          std::copy_n(counts.begin() + k, dim, centre.begin_raw());
+          (*n_in_cell)[cell_number(centre)] = static_cast<unsigned int>(counts[k + dim]);
+        }
+      const auto found = n_in_cell->find(cell_number(cell->center()));
+      return found == n_in_cell->end() ? 0 : found->second;
+    };
   }
 
   template <int dim>
@@ -63,8 +84,36 @@ namespace Talus
         is_active[i] = !is_active[i];
         ++n_changed_nodes;
       }
-    if (n_changed_nodes > 0)
-      collect_active_nodes();
+    if (n_changed_nodes == 0)
+      return;
+    collect_active_nodes();
+    active_nodes_changed();
+  }
+
+  template <int dim>
+  std::vector<double> Grid<dim>::share() const
+  {
+    Tensor<1, dim> sum;
+    for (unsigned int i = 0; i < fields.n_owned(); ++i)
+      sum += node_position(i);
+    std::vector<double> numbers{1. * fields.n_owned(), 1. * fields.n_local(), 1. * nodes.n_places()};
+    numbers.insert(numbers.end(), sum.begin_raw(), sum.end_raw());
+    return numbers;
+  }
+
+  template <int dim>
+  void Grid<dim>::serialize(Archive &archive)
+  {
+    const Archive::Scope scope(archive, "grid");
+    std::vector<double>  numbers = share(), active(active_nodes.begin(), active_nodes.end());
+    archive.of_rank("share", numbers);
+    archive.of_rank("active nodes", active);
+    if (!archive.is_reading() || !archive.is_exact())
+      return;
+    std::vector<char> is_reached(fields.n_local(), 0);
+    for (const double i : active)
+      is_reached.at(static_cast<unsigned int>(i)) = 1;
+    activate_nodes(std::move(is_reached));
   }
 
   template <int dim>

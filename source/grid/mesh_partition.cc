@@ -119,7 +119,10 @@ namespace Talus
             cell->set_subdomain_id(part[cell->active_cell_index()]);
         },
         communicator, n_ranks);
+    dof_handler.clear();
+    triangulation.clear();
     triangulation.create_triangulation(description);
+    dof_handler.reinit(triangulation);
     dof_handler.distribute_dofs(fe);
     fill_tables();
     find_owners();

@@ -13,7 +13,8 @@ namespace Talus
     this->communicator = communicator;
     this->places       = places;
     n_owned_nodes      = partitioner.locally_owned_size();
-    n_all_places       = n_places;
+    ++n_numberings;
+    n_all_places = n_places;
     AssertDimension(places.size(), n_owned_nodes + partitioner.n_ghost_indices());
 
     copied_by.clear();
@@ -41,7 +42,8 @@ namespace Talus
                      const std::vector<Neighbour> &copied_by, const std::vector<Neighbour> &copied_from,
                      const Communicator &communicator)
   {
-    n_owned_nodes      = n_owned;
+    n_owned_nodes = n_owned;
+    ++n_numberings;
     n_all_places       = n_places;
     this->places       = places;
     this->copied_by    = copied_by;

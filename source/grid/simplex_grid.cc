@@ -111,6 +111,15 @@ namespace Talus
   }
 
   template <int dim>
+  void SimplexGrid<dim>::repartition(const std::vector<double> &counts)
+  {
+    std::vector<double> all;
+    for (const auto &of_rank : Utilities::MPI::gather(communicator, counts))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    create(this->weight_by(all), {});
+  }
+
+  template <int dim>
   void SimplexGrid<dim>::number_nodes()
   {
     const IndexSet owned = this->dof_handler.locally_owned_dofs();

@@ -98,7 +98,6 @@ namespace Talus
         for (std::size_t k = rings.begin[c]; k < rings.begin[c + 1]; ++k)
           is_reached[mesh().real(rings.node[k])] = 1;
     this->activate_nodes(by_number(is_reached));
-    find_open_cells();
   }
 
   template <int dim>

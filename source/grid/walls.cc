@@ -36,6 +36,7 @@ namespace Talus
   void Walls<dim>::attach(BoxGrid<dim> &grid)
   {
     this->grid = &grid;
+    ghost_place.clear();
     select();
   }
 
@@ -56,6 +57,27 @@ namespace Talus
     for (const unsigned int place : ghost_place)
       std::fill_n(grid->fields.at_place(place), 8, 0.); // who is no longer active is not cleared
     is_asked.assign(grid->fields.n_local(), false);
+    number_nodes();
+  }
+
+  template <int dim>
+  void Walls<dim>::serialize(Archive &archive)
+  {
+    if (!has_ghosts())
+      return;
+    const Archive::Scope scope(archive, "walls");
+    std::vector<double>  asked_nodes;
+    for (unsigned int i = 0; i < is_asked.size(); ++i)
+      if (is_asked[i])
+        asked_nodes.push_back(i);
+    archive.of_rank("asked nodes", asked_nodes);
+    if (!archive.is_reading())
+      return;
+    select();
+    if (!archive.is_exact())
+      return;
+    for (const double i : asked_nodes)
+      is_asked.at(static_cast<unsigned int>(i)) = true;
     number_nodes();
   }
 

@@ -86,6 +86,20 @@ namespace Talus
   }
 
   template <int dim>
+  void Comparison<dim>::serialize(Archive &archive)
+  {
+    const Archive::Scope scope(archive, "comparison");
+    archive("averaged time", averaged_time);
+    std::vector<double> numbers;
+    for (const auto &reaction : mean_reactions)
+      numbers.insert(numbers.end(), reaction.begin_raw(), reaction.end_raw());
+    archive("mean reactions", numbers);
+    mean_reactions.resize(numbers.size() / dim);
+    for (unsigned int k = 0; k < numbers.size(); ++k)
+      mean_reactions[k / dim][k % dim] = numbers[k];
+  }
+
+  template <int dim>
   void Comparison<dim>::finish(const double end_time, const std::vector<std::unique_ptr<Material>> &materials,
                                const std::vector<std::string> &condition_names, WorkingSet<dim> &particles)
   {

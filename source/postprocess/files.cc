@@ -51,7 +51,7 @@ namespace Talus
                      "";
     }
 
-    std::string prepare(const std::string &directory, const bool overwrite)
+    std::string prepare(const std::string &directory, const bool overwrite, DirectoryLock &lock)
     {
       if (directory.empty())
         return "the directory has no name. Give one; '.' is the one talus is started in.";
@@ -70,16 +70,17 @@ namespace Talus
                "or choose another directory.";
       if (!is_writable(path))
         return "the directory '" + directory + "' is not writable. Change its permissions or choose another directory.";
-      return clear(path);
+      const std::string problem = lock.take(directory);
+      return problem.empty() ? clear(path) : problem;
     }
   } // namespace
 
-  void prepare_directory(const std::string &directory, const bool overwrite, const std::string &section,
-                         const std::string &entry, MPI_Comm communicator)
+  void prepare_directory(const std::string &directory, const bool overwrite, DirectoryLock &lock,
+                         const std::string &section, const std::string &entry, MPI_Comm communicator)
   {
     std::string problem;
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      problem = prepare(directory, overwrite);
+      problem = prepare(directory, overwrite, lock);
     problem = Utilities::MPI::broadcast(communicator, problem);
     if (!problem.empty())
       throw EntryError(section, entry, problem);
@@ -88,9 +89,29 @@ namespace Talus
   bool is_output_file(const std::string &name)
   {
     // parameters.prm is not among them: it may be the very file from which the run is repeated.
-    static const std::regex pattern("((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|"
-                                    "(statistics|probes|comparison|load_curve|verification)\\.csv|log\\.txt)(\\.tmp)?");
+    static const std::regex pattern(
+      "((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|checkpoint_[0-9]{8,10}\\.h5|"
+      "(statistics|probes|comparison|load_curve|verification)\\.csv|log\\.txt)(\\.tmp)?");
     return std::regex_match(name, pattern);
+  }
+
+  void remove_numbered_files(const std::string &directory, const unsigned int first)
+  {
+    static const std::regex pattern("(?:particles|grid)(?:_([0-9]{5,}))?\\.(?:vtu|pvd|csv)(\\.tmp)?");
+    std::error_code         error;
+    std::vector<fs::path>   old;
+    for (const auto &entry : fs::directory_iterator(directory, error))
+    {
+      std::smatch       match;
+      const std::string name = entry.path().filename().string();
+      if (std::regex_match(name, match, pattern) &&
+          (match[2].matched || (match[1].matched && std::stoul(match[1]) >= first)))
+        old.push_back(entry.path());
+    }
+    for (const auto &file : old)
+      if (!error)
+        fs::remove(file, error);
+    AssertThrow(!error, RunError("Cannot remove old files in '" + directory + "': " + error.message() + "."));
   }
 
   void rename_file(const std::string &temporary, const std::string &path)

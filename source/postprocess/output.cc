@@ -65,7 +65,37 @@ namespace Talus
   void Output<dim>::open(MPI_Comm communicator)
   {
     this->communicator = communicator;
-    prepare_directory(path, overwrite, get_section_name(), "Directory", communicator);
+    prepare_directory(path, overwrite, lock, get_section_name(), "Directory", communicator);
+  }
+
+  template <int dim>
+  void Output<dim>::reopen(MPI_Comm communicator)
+  {
+    this->communicator = communicator;
+    run_on_root(
+      [&] {
+        remove_numbered_files(path, times.size());
+        for (const std::string name : {"particles", "grid"})
+          if (!times.empty() && (with_grid || name == "particles"))
+            write_series(name);
+      },
+      communicator);
+  }
+
+  template <int dim>
+  void Output<dim>::serialize(Archive &archive)
+  {
+    const Archive::Scope scope(archive, "output");
+    archive("times", times);
+    archive("last step", last_step);
+    find_next(); // by the interval that the run has now
+  }
+
+  template <int dim>
+  void Output<dim>::find_next()
+  {
+    if (time_interval > 0 && !times.empty())
+      next = (std::floor(times.back() / time_interval + tolerance) + 1) * time_interval;
   }
 
   template <int dim>
@@ -96,8 +126,7 @@ namespace Talus
     const unsigned int number = times.size();
     times.push_back(time);
     last_step = step;
-    if (time_interval > 0)
-      next = (std::floor(time / time_interval + tolerance) + 1) * time_interval;
+    find_next();
 
     ParticleOutput<dim> particle_output;
     particle_output.build_patches(particles, fields);

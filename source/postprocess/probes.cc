@@ -98,6 +98,23 @@ namespace Talus
   template <int dim>
   void Probes<dim>::open(const std::string &directory, const WorkingSet<dim> &particles, const Grid<dim> &grid)
   {
+    find(particles, grid);
+    if (!probes.empty())
+      file.open(directory + "/probes.csv", table.columns(), communicator);
+  }
+
+  template <int dim>
+  void Probes<dim>::reopen(const std::string &directory, const double time, const WorkingSet<dim> &particles,
+                           const Grid<dim> &grid)
+  {
+    find(particles, grid);
+    if (!probes.empty())
+      file.reopen(directory + "/probes.csv", table.columns(), time, communicator);
+  }
+
+  template <int dim>
+  void Probes<dim>::find(const WorkingSet<dim> &particles, const Grid<dim> &grid)
+  {
     communicator = grid.communicator;
     fields       = select_particle_fields(particles, field_names, get_section_name(), "Fields");
     if (probes.empty())
@@ -121,7 +138,6 @@ namespace Talus
         for (const auto &component : field.components)
           table.add(probe.name + "_" + component, field.unit, *value++);
     }
-    file.open(directory + "/probes.csv", table.columns(), communicator);
   }
 
   template <int dim>

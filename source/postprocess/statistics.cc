@@ -5,10 +5,24 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include <sys/stat.h>
 
 namespace Talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** 0 if there is none. */
+    std::uintmax_t number_of_file(const std::string &path)
+    {
+      struct stat status;
+      return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+    }
+  } // namespace
 
   void CsvFile::open(const std::string &path, const std::vector<Column> &columns, MPI_Comm communicator)
   {
@@ -17,12 +31,56 @@ namespace Talus
     is_root       = Utilities::MPI::this_mpi_process(communicator) == 0;
     run_on_root(
       [&] {
-        std::string header;
-        for (const auto &column : columns)
-          header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
         file.open(path);
-        file << header << std::endl;
+        file << header() << std::endl;
+        number = number_of_file(path);
         AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
+      },
+      communicator);
+  }
+
+  void CsvFile::check_is_there() const
+  {
+    AssertThrow(number_of_file(path) == number,
+                RunError("'" + path +
+                         "' was removed or replaced while the run was writing to it. Leave the directory "
+                         "of a run alone; 'talus --resume' goes on from the last checkpoint if that is still there."));
+  }
+
+  std::string CsvFile::header() const
+  {
+    std::string header;
+    for (const auto &column : columns)
+      header += (header.empty() ? "" : ",") + column.name + (column.unit.empty() ? "" : " [" + column.unit + "]");
+    return header;
+  }
+
+  std::uintmax_t CsvFile::length_until(const double time) const
+  {
+    std::ifstream in(path);
+    std::string   line;
+    std::getline(in, line);
+    AssertThrow(in, RunError("cannot read '" + path + "', to which the run that goes on would add rows."));
+    AssertThrow(line == header(), RunError("the columns of '" + path + "' are not those of the run that goes on."));
+    std::uintmax_t length = line.size() + 1;
+    while (std::getline(in, line) && !in.eof() && std::strtod(line.c_str(), nullptr) <= time)
+      length += line.size() + 1;
+    return length;
+  }
+
+  void CsvFile::reopen(const std::string &path, const std::vector<Column> &columns, const double time,
+                       MPI_Comm communicator)
+  {
+    this->path    = path;
+    this->columns = columns;
+    is_root       = Utilities::MPI::this_mpi_process(communicator) == 0;
+    run_on_root(
+      [&] {
+        std::error_code error;
+        std::filesystem::resize_file(path, length_until(time), error);
+        file.open(path, std::ios::app);
+        number = number_of_file(path);
+        AssertThrow(!error && file, RunError("Cannot write '" + path + "'. Change its permissions."));
       },
       communicator);
   }
@@ -42,6 +100,7 @@ namespace Talus
     if (!is_root)
       return;
     file << row << std::endl;
+    check_is_there();
     AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full?"));
   }
 } // namespace Talus

@@ -137,6 +137,21 @@ namespace Talus
   }
 
   template <int dim>
+  void Verification<dim>::serialize(Archive &archive)
+  {
+    const Archive::Scope scope(archive, "verification");
+    std::vector<double>  numbers(largest.begin(), largest.end());
+    for (const auto &row : rows)
+      numbers.insert(numbers.end(), row.begin(), row.end());
+    archive("largest, and rows", numbers);
+    std::copy_n(numbers.begin(), n_fields, largest.begin());
+    rows.clear();
+    constexpr unsigned int n = 2 + 2 * n_fields;
+    for (auto next = numbers.begin() + n_fields; next != numbers.end(); next += n)
+      rows.emplace_back(next, next + n);
+  }
+
+  template <int dim>
   void Verification<dim>::write(const std::string &file_name, std::ostream &table) const
   {
     std::vector<Column> columns = {{"time", "time"}, {"step", "1"}};

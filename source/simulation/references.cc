@@ -3,6 +3,7 @@
 #include <talus/core/registry.h>
 #include <talus/verification/manufactured_solution.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Talus
@@ -104,8 +105,10 @@ namespace Talus
   template <int dim>
   void References<dim>::measure(const double time, const Model<dim> &model)
   {
-    if (verification)
-      errors = verification->errors(time, model.particles);
+    if (!verification)
+      return;
+    const auto now = verification->errors(time, model.particles);
+    std::copy(now.begin(), now.end(), errors.begin()); // which the table reads where they lie
   }
 
   template <int dim>
@@ -115,6 +118,15 @@ namespace Talus
       comparison->accumulate(now.time, now.dt, end_time, model.boundary, model.particles);
     if (verification)
       verification->record(now.time, end_time, now.step, model.particles);
+  }
+
+  template <int dim>
+  void References<dim>::serialize(Archive &archive)
+  {
+    if (comparison)
+      comparison->serialize(archive);
+    if (verification)
+      verification->serialize(archive);
   }
 
   template <int dim>

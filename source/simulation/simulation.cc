@@ -36,14 +36,36 @@ namespace Talus
     set_up();
     open_output();
     postprocess();
+    step_to_end();
+  }
+
+  template <int dim>
+  void Simulation<dim>::step_to_end()
+  {
+    const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
     resources.start_steps();
-    while (!is_finished())
+    try
     {
-      advance();
-      check();
-      postprocess();
+      const Requests::Signals caught;
+      while (!is_finished() && !model.requests.is_stopped())
+      {
+        model.requests.wants_checkpoint = is_root && checkpoints.is_due_by_clock();
+        advance();
+        check();
+        postprocess();
+        checkpoint();
+      }
     }
-    finish();
+    catch (const RunError &error)
+    {
+      log << "ended: failed. " << error.message << std::endl;
+      throw;
+    }
+    if (is_finished())
+      finish();
+    else
+      stop();
+    log << "ended: " << (is_finished() ? "done" : model.requests.signal_name()) << std::endl;
   }
 
   template <int dim>
@@ -75,6 +97,11 @@ namespace Talus
   void Simulation<dim>::check()
   {
     AssertThrow(!report.has_failed, RunError(report.failure + now.text() + ". " + report.remedy));
+    if (!report.news.empty())
+    {
+      progress->end_line();
+      say(report.news + now.text() + ".\n");
+    }
     energy.check(model, report, now);
     if (now.step % energy.interval == 0 || is_finished())
     {
@@ -122,28 +149,44 @@ namespace Talus
       const Timing::Scope scope(timing, output_section);
       output.write(now.time, now.step, model.particles, model.grid);
     }
-    say(timing.table() + stepper->summary() + resources.traffic(now.step) + resources.memory(model.particles.n_global));
+    say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
+        resources.memory(model.particles.n_global));
   }
 
   template <int dim>
-  void Simulation<dim>::open_output()
+  void Simulation<dim>::open_output(const Resume *resume)
   {
-    output_section    = timing.add("output");
-    reference_section = timing.add("finite element reference");
+    output_section     = timing.add("output");
+    reference_section  = timing.add("finite element reference");
+    checkpoint_section = timing.add("checkpoints");
     output.leave_out(references.idle_fields());
     probes.leave_out(references.idle_fields());
     output.check(model.particles);
-    output.open(communicator);
+    if (resume)
+      output.reopen(communicator);
+    else
+      output.open(communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
     {
-      log.open(output.directory() + "/log.txt");
+      log.open(output.directory() + "/log.txt", resume ? std::ios::app : std::ios::out);
       std::ofstream used(output.directory() + "/parameters.prm");
       parameters.print(used, /* with_help = */ false);
       AssertThrow(log && used.flush(), RunError("Cannot write into the directory '" + output.directory() + "'."));
     }
-    probes.open(output.directory(), model.particles, model.grid);
     fill_table();
-    statistics.open(output.directory() + "/statistics.csv", table.columns(), communicator);
+    const std::string statistics_file = output.directory() + "/statistics.csv";
+    if (resume)
+    {
+      probes.reopen(output.directory(), now.time, model.particles, model.grid);
+      statistics.reopen(statistics_file, table.columns(), now.time, communicator);
+      say("\nGoing on from '" + resume->file + "', step " + std::to_string(now.step) + ".\n");
+    }
+    else
+    {
+      probes.open(output.directory(), model.particles, model.grid);
+      statistics.open(statistics_file, table.columns(), communicator);
+    }
+    checkpoints.start(output.directory(), now, communicator);
     say(summary());
     for (const auto &warning : parameters.warnings())
       say_warning(warning);

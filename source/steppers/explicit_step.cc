@@ -24,6 +24,10 @@ namespace Talus
       this->prm, Patterns::Double());
     this->add_parameter("Step size", fixed_step_size, "Fixed step size [time]; 0: by the Courant number each step.",
                         this->prm, Patterns::Double(0));
+    this->add_parameter("Largest imbalance", upkeep.largest_imbalance,
+                        "Particles of the rank that has most over the mean, beyond which the ranks share the cells out "
+                        "anew [1]; 0: never.",
+                        this->prm, Patterns::Double(0));
     this->add_parameter("MUSL", is_musl,
                         "The velocity gradient is that of the particles' new velocities, scattered once more.");
     this->add_parameter("Mass cutoff", mass_cutoff,
@@ -37,6 +41,10 @@ namespace Talus
     if (!(courant_number >= 0))
       throw EntryError(this->get_section_name(), "Courant number",
                        "it must not be negative; 0 takes what lone particles bear with the kernel.");
+    if (upkeep.largest_imbalance > 0 && !(upkeep.largest_imbalance > 1))
+      throw EntryError(this->get_section_name(), "Largest imbalance",
+                       "no rank can have fewer than the mean if none has more: it must be above 1, for instance 1.2, "
+                       "or 0 for never.");
   }
 
   template <int dim>
@@ -129,7 +137,9 @@ namespace Talus
       model.smoothing.apply(model.materials, *model.kernel, dt, model.particles, model.grid);
     }
     move_nodes(model, time, dt);
-    return move_particles(model, time, dt);
+    Report report = move_particles(model, time, dt);
+    report.news   = upkeep.news;
+    return report;
   }
 
   template <int dim>
@@ -215,7 +225,9 @@ namespace Talus
   std::string Explicit<dim>::summary() const
   {
     return "  " + std::to_string(upkeep.n_migrations) + " migrations between ranks, " + std::to_string(upkeep.n_sorts) +
-           " sorts\n";
+           " sorts" +
+           (upkeep.n_balances > 0 ? ", cells shared out anew " + std::to_string(upkeep.n_balances) + " time(s)" : "") +
+           '\n';
   }
 
   template class Explicit<2>;

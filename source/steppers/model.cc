@@ -116,10 +116,7 @@ namespace Talus
     check_memory();
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);
-    kernel->attach(grid);
-    if (reach.ghosts)
-      walls.attach(box_grid(grid, "/Kernel", "Boundary treatment"));
-    particles.set_reach(grid, reach);
+    attach();
     smoothing.add_fields(materials, particles);
     f_bar.add_fields(particles);
     if (!bodies.empty())
@@ -127,19 +124,48 @@ namespace Talus
       particles.create(grid, bodies, materials, kernel->smallest_share());
       overlaps.check(particles, bodies, grid);
     }
-    for (auto &condition : boundary.conditions)
-      condition->attach(grid);
+    boundary.attach(grid);
     boundary.mark_slip_walls(std::numeric_limits<double>::min(), particles.n_stencil_nodes, grid);
     initialize();
     transfer->initialize(*kernel, particles);
     smoothing.initialize(materials, *kernel, particles, grid);
-    f_bar.initialize(particles, grid);
+    f_bar.initialize(particles);
     for (const auto &body : bodies)
       if (body->starts_deformed())
         materials[body->material]->update(material_range(particles, body->material, /* dt = */ 0.));
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);
     contacts.attach(grid, materials, particles);
+  }
+
+  template <int dim>
+  void Model<dim>::attach()
+  {
+    const Reach reach = transfer->reach(*kernel);
+    kernel->attach(grid);
+    if (reach.ghosts)
+      walls.attach(box_grid(grid, "/Kernel", "Boundary treatment"));
+    particles.set_reach(grid, reach);
+  }
+
+  template <int dim>
+  void Model<dim>::repartition(const std::vector<double> &counts)
+  {
+    // What conditions know of nodes goes by their positions.
+    Archive of_nodes;
+    boundary.serialize(of_nodes, grid);
+    Archive::Numbers of_all;
+    for (const auto &[name, numbers] : of_nodes.all_of_rank())
+      for (const auto &of_rank : Utilities::MPI::all_gather(grid.communicator, numbers))
+        of_all[name].insert(of_all[name].end(), of_rank.begin(), of_rank.end());
+
+    grid.repartition(counts);
+    last_counts = counts;
+    attach();
+    boundary.attach(grid);
+    particles.find_places();
+    Archive found(of_nodes.all_shared(), of_all, /* is_exact = */ false);
+    boundary.serialize(found, grid);
   }
 
   template <int dim>
@@ -208,8 +234,26 @@ namespace Talus
   }
 
   template <int dim>
+  void Model<dim>::serialize(Archive &archive)
+  {
+    archive.of_rank("partition", last_counts);
+    if (archive.is_reading() && Utilities::MPI::this_mpi_process(grid.communicator) != 0 && !archive.is_exact())
+      last_counts.clear(); // the first rank has those of all
+    grid.serialize(archive);
+    if (archive.is_reading())
+    {
+      particles.update_open_places();
+      boundary.select(grid);
+    }
+    walls.serialize(archive);
+    boundary.serialize(archive, grid);
+    contacts.serialize(archive);
+  }
+
+  template <int dim>
   void Model<dim>::add_to(Reduction &reduction)
   {
+    requests.add_to(reduction);
     reduction.sum(grid.lost_momentum);
     boundary.add_to(reduction);
     tractions.add_to(reduction);

@@ -134,6 +134,7 @@ namespace Talus
     Report report;
     report.signal_speed     = greatest(signal_speed);
     report.displacement     = displacement;
+    report.most_particles   = particles.size();
     report.needs_migration  = particles.needs_synchronise;
     report.needs_activation = particles.needs_activation;
     report.has_failed       = failed != particles.none;

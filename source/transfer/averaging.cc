@@ -57,6 +57,8 @@ namespace Talus
                              const Kernel<dim> &kernel, const Grid<dim> &grid)
   {
     using Fields = NodalFields<dim>;
+    if (fields.is_empty())
+      fields.reinit(grid.nodes);
     zeros.resize(particles.size(), 0.);
     unused.resize(particles.size());
     TransferArrays<dim> arrays(particles);

@@ -23,11 +23,10 @@ namespace Talus
   }
 
   template <int dim>
-  void FBar<dim>::initialize(Particles<dim> &particles, const Grid<dim> &grid)
+  void FBar<dim>::initialize(Particles<dim> &particles)
   {
     if (!is_on)
       return;
-    averaging.reinit(grid);
     const auto seen = seen_fields(particles);
     const auto copy = [&](const unsigned int from, const unsigned int to) {
       for (unsigned int c = 0; c < particles.fields[from].n_components; ++c)

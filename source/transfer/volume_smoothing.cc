@@ -21,8 +21,6 @@ namespace Talus
                                         const Kernel<dim> &kernel, Particles<dim> &particles, const Grid<dim> &grid)
   {
     const auto smooths = [](const auto &material) { return material->smoothing_speed() > 0; };
-    if (std::any_of(materials.begin(), materials.end(), smooths))
-      averaging.reinit(grid);
     for (unsigned int m = 0; m < materials.size(); ++m)
       if (smooths(materials[m]))
         smooth(*materials[m], material_range(particles, m, 0.), kernel, /* alpha = */ 0., particles, grid);

@@ -13,6 +13,7 @@ void expressions();
 void reduction();
 void traffic();
 void table();
+void archive();
 void text_files();
 void registry();
 void simd();
@@ -35,6 +36,7 @@ int main(int argc, char **argv)
                     {"reduction", reduction},
                     {"traffic", traffic},
                     {"table", table},
+                    {"archive", archive},
                     {"text files", text_files},
                     {"registry", registry},
                     {"simd", simd},

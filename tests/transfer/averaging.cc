@@ -98,10 +98,9 @@ void averaging()
 {
   for (const auto &kernel : all_kernels)
   {
-    Setup<dim>     setup(some_box<dim>(kernel));
-    auto          &particles = setup.particles;
-    Averaging<dim> averaging(setup.parameters, "WLS separable");
-    averaging.reinit(setup.grid);
+    Setup<dim>                       setup(some_box<dim>(kernel));
+    auto                            &particles = setup.particles;
+    Averaging<dim>                   averaging(setup.parameters, "WLS separable");
     const unsigned int               n = particles.size();
     std::vector<double>              a(n), b(n);
     std::vector<std::vector<double>> g(dim, std::vector<double>(n));

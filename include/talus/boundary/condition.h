@@ -54,6 +54,9 @@ namespace Talus
     {
     }
 
+    /** What it remembers from one step to the next. */
+    virtual void serialize(Archive & /* archive */, const Grid<dim> & /* grid */) {}
+
     /** Whether it acts in a step that ends at `time`. */
     bool acts(const double time) const;
 
@@ -227,6 +230,14 @@ namespace Talus
      */
     void repeat(const double time, const double dt, Walls<dim> &walls, Grid<dim> &grid);
 
+    /** Finds the nodes of all conditions. Collective. */
+    void attach(const Grid<dim> &grid)
+    {
+      for (auto &condition : conditions)
+        condition->attach(grid);
+      marked.clear();
+    }
+
     void select(const Grid<dim> &grid)
     {
       for (auto &condition : conditions)
@@ -247,6 +258,15 @@ namespace Talus
     }
 
     void add_to(Table &table) const;
+
+    void serialize(Archive &archive, const Grid<dim> &grid)
+    {
+      for (unsigned int c = 0; c < conditions.size(); ++c)
+      {
+        const Archive::Scope scope(archive, "condition." + names[c]);
+        conditions[c]->serialize(archive, grid);
+      }
+    }
 
     std::vector<std::string>                     names;
     std::vector<std::unique_ptr<Condition<dim>>> conditions;

@@ -14,6 +14,7 @@ namespace Talus
     static std::string help();
 
     std::string              file_name;
+    std::string              directory; // of the run that is to go on
     std::vector<std::string> overrides;
     bool                     wants_help = false, wants_version = false, wants_list = false, prints_parameters = false;
   };

@@ -33,8 +33,12 @@ namespace Talus
     /** Reads `file_name`; `overrides` are "Section/Entry = value". Throws InputError. */
     Parameters(const std::string &file_name, const std::vector<std::string> &overrides = {});
 
-    /** The same for a text in memory; for tests. */
-    static Parameters from_text(const std::string &text);
+    /** The same for a text in memory that is called `name`. */
+    static Parameters from_text(const std::string &text, const std::string &name = "text",
+                                const std::vector<std::string> &overrides = {});
+
+    /** What the file and `--set` set, as the text of a file without `include`. */
+    std::string settings_text() const;
 
     /** Declares a choice among what is registered in a kind and returns what the file chooses. */
     template <class Interface>

@@ -52,6 +52,7 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
     void create(const CellWeight &weight, const Reach &reach) override;
+    void repartition(const std::vector<double> &counts) override;
 
     std::size_t n_places() const override { return lattice.node.size(); }
     void        look(const Columns &x, const unsigned int begin, const unsigned int end, unsigned int *place,
@@ -181,7 +182,8 @@ namespace Talus
      * Collective. */
     void check_memory() const;
 
-    void create_triangulation(const CellWeight &weight);
+    void create_triangulation();
+    void share_out(const CellWeight &weight);
     void number_nodes();
     void fill_tables(const unsigned int n_layers);
 

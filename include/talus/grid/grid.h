@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/archive.h>
 #include <talus/grid/boundary_part.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/grid/reach.h>
@@ -56,6 +57,12 @@ namespace Talus
      */
     virtual void create(const CellWeight &weight, const Reach &reach) = 0;
 
+    /**
+     * Shares the cells out anew by the numbers of particles in them: centre and number of each cell that has any, each
+     * rank those of its cells at least. Nodes then have other numbers, places are other ones. Collective.
+     */
+    virtual void repartition(const std::vector<double> &counts) = 0;
+
     // Of particles, block by block.
 
     /** Whether particles keep their places; if not, `place` of the functions below is not read and may be null. */
@@ -87,6 +94,12 @@ namespace Talus
 
     /** Whether activate() would find nothing new in a stencil that begins here, as far as this rank knows. */
     virtual bool is_active_around(const unsigned int place) const = 0;
+
+    /** Which nodes are active. Collective. */
+    void serialize(Archive &archive);
+
+    /** A few numbers that tell this rank's share of the grid from any other. */
+    std::vector<double> share() const;
 
     // For set-up and messages.
 
@@ -204,6 +217,9 @@ namespace Talus
          dealii::parallel::TriangulationBase<dim> &triangulation, dealii::DoFHandler<dim> &dof_handler,
          const dealii::Mapping<dim> &mapping);
 
+    /** The weight of cells by numbers of particles in the form that repartition() has. */
+    CellWeight weight_by(const std::vector<double> &counts) const;
+
     /** Sets marks of local nodes that any rank has set. Collective. */
     void spread(std::vector<char> &of_nodes);
 
@@ -212,6 +228,9 @@ namespace Talus
     void activate_nodes(std::vector<char> is_reached);
 
     void activate_all();
+
+    /** Called when the active nodes have changed. */
+    virtual void active_nodes_changed() {}
 
   private:
     void collect_active_nodes();

@@ -67,6 +67,7 @@ namespace Talus
     void reinit(const Nodes &nodes)
     {
       this->nodes = &nodes;
+      numbering   = nodes.numbering();
       memory      = std::make_unique<UntouchedMemory>(nodes.n_places() * stride);
       values      = memory->data();
       exchange.reinit(nodes);
@@ -102,7 +103,8 @@ namespace Talus
     /** Brings the owners' values into the copies. Collective. */
     void update_copies() { exchange.update_copies(*nodes, values); }
 
-    bool         is_empty() const { return nodes == nullptr; }
+    /** Whether there are no numbers, or those of nodes that have been numbered anew since. */
+    bool         is_empty() const { return nodes == nullptr || numbering != nodes->numbering(); }
     unsigned int n_owned() const { return nodes->n_owned(); }
     unsigned int n_local() const { return nodes->n_local(); }
 
@@ -113,8 +115,9 @@ namespace Talus
     const double *at_place(const std::size_t place) const { return values + stride * place; }
 
   private:
-    const Nodes                     *nodes  = nullptr;
-    double                          *values = nullptr;
+    const Nodes                     *nodes     = nullptr;
+    unsigned int                     numbering = 0;
+    double                          *values    = nullptr;
     std::unique_ptr<UntouchedMemory> memory;
     NodalExchange                    exchange{n};
   };

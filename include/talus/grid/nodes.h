@@ -38,6 +38,9 @@ namespace Talus
       std::vector<unsigned int> nodes;
     };
 
+    /** Grows when nodes are numbered anew. */
+    unsigned int numbering() const { return n_numberings; }
+
     std::vector<Neighbour> copied_by;   // owned nodes of which the neighbour has copies
     std::vector<Neighbour> copied_from; // copies of nodes that the neighbour owns
     Communicator           communicator;
@@ -48,8 +51,8 @@ namespace Talus
                 const Communicator &communicator);
 
   private:
-    unsigned int              n_owned_nodes = 0;
-    std::size_t               n_all_places  = 0;
+    unsigned int              n_owned_nodes = 0, n_numberings = 0;
+    std::size_t               n_all_places = 0;
     std::vector<unsigned int> places; // of each node
   };
 } // namespace Talus

@@ -42,6 +42,7 @@ namespace Talus
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
     void create(const CellWeight &weight, const Reach &reach) override;
+    void repartition(const std::vector<double> &counts) override;
 
     bool        keeps_places() const override { return true; }
     std::size_t n_places() const override { return mesh().n_cells(); }
@@ -102,6 +103,7 @@ namespace Talus
 
     /** Cells of this rank all of whose stencil's nodes are active. */
     void find_open_cells();
+    void active_nodes_changed() override { find_open_cells(); }
 
     std::vector<char>                    is_open;
     std::map<unsigned int, unsigned int> mirrored_faces; // of groups, see BoundaryPart

@@ -36,6 +36,9 @@ namespace Talus
     /** Finds the wall nodes among the active ones; due after each activation. */
     void select();
 
+    /** Which nodes conditions have asked something of since the last select(), which it does anew. Collective. */
+    void serialize(Archive &archive);
+
     /** Zeros the ghosts for the sums of a step. */
     void clear();
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/archive.h>
 #include <talus/core/reduction.h>
 #include <talus/core/table.h>
 #include <talus/grid/grid.h>
@@ -49,6 +50,9 @@ namespace Talus
       reduction.max(nearness);
       reduction.any(is_broken);
     }
+
+    /** What the next step may be; what is near is found anew. */
+    void serialize(Archive &archive) { archive("contact." + name + ".inverse step", inverse_step); }
 
     void add_to(Table &table) const;
 
@@ -123,6 +127,12 @@ namespace Talus
     {
       for (const auto &contact : all)
         contact->add_to(table);
+    }
+
+    void serialize(Archive &archive)
+    {
+      for (auto &contact : all)
+        contact->serialize(archive);
     }
 
     /** 1 over the largest step that all allow [1/time]. */

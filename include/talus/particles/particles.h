@@ -82,6 +82,19 @@ namespace Talus
      */
     void take_back();
 
+    /**
+     * Takes over all particles as they have been put into the working set: ids and columns, and, if this is
+     * `as_they_were` on this rank, their order and their places; otherwise each rank has any of them, and they find
+     * their ranks and the canonical order. Throws InputError where their number has changed. Collective.
+     */
+    void take_over(const bool as_they_were);
+
+    /** Finds the ranks and places of particles in a grid whose cells have been shared out anew. Collective. */
+    void find_places();
+
+    /** Centre and number of particles of each of this rank's cells that has any; all have come to their ranks. */
+    std::vector<double> counts() const;
+
     /** For each place, whether the stencil of a particle begins there. */
     std::vector<char> used_places() const;
 

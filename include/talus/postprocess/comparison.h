@@ -52,6 +52,9 @@ namespace Talus
     void accumulate(const double time, const double dt, const double end_time, const Boundary<dim> &boundary,
                     WorkingSet<dim> &particles);
 
+    /** The averages so far. */
+    void serialize(Archive &archive);
+
     /** Solves the reference and fills the fields. Collective. */
     void finish(const double end_time, const std::vector<std::unique_ptr<Material>> &materials,
                 const std::vector<std::string> &condition_names, WorkingSet<dim> &particles);

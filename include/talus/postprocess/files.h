@@ -1,5 +1,7 @@
 #pragma once
 
+#include <talus/postprocess/directory_lock.h>
+
 #include <mpi.h>
 
 #include <functional>
@@ -11,10 +13,14 @@ namespace Talus
   /**
    * Creates the directory into which a run writes. An old one that is not empty is
    * refused, or with `overwrite` cleared of the files that a run writes; others
-   * stay. Throws an EntryError for `entry` of `section` on all ranks. Collective.
+   * stay. Takes the lock on the first rank. Throws an EntryError for `entry` of
+   * `section` on all ranks. Collective.
    */
-  void prepare_directory(const std::string &directory, const bool overwrite, const std::string &section,
-                         const std::string &entry, MPI_Comm communicator);
+  void prepare_directory(const std::string &directory, const bool overwrite, DirectoryLock &lock,
+                         const std::string &section, const std::string &entry, MPI_Comm communicator);
+
+  /** Removes particles_NNNNN.vtu, grid_NNNNN.vtu, ... from number `first` on, and unfinished files. Throws RunError. */
+  void remove_numbered_files(const std::string &directory, const unsigned int first);
 
   /** True for the name of a file that Talus writes into its output directory and may remove there. */
   bool is_output_file(const std::string &name);

@@ -2,6 +2,7 @@
 
 #include <talus/grid/grid.h>
 #include <talus/particles/particles.h>
+#include <talus/postprocess/directory_lock.h>
 #include <talus/postprocess/particle_fields.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -27,6 +28,15 @@ namespace Talus
 
     /** Checks and creates the directory; EntryError on all ranks. Collective. */
     void open(MPI_Comm communicator);
+
+    /**
+     * The same for a run that goes on in its directory, which is locked, after serialize(): what was written later than
+     * the state from which it goes on is removed. Collective.
+     */
+    void reopen(MPI_Comm communicator);
+
+    /** What has been written. */
+    void serialize(Archive &archive);
 
     /** Drops fields from those that the file chooses, of an object that is switched off; before check(). */
     void leave_out(const std::vector<std::string> &names) { Talus::leave_out(names, field_names); }
@@ -61,6 +71,7 @@ namespace Talus
     template <class DataOut>
     void write_vtu(DataOut &data, const std::string &name, const std::map<std::string, std::string> &units) const;
     void write_series(const std::string &name) const;
+    void find_next();
     std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;
 
     std::string              path                = "output";
@@ -71,6 +82,7 @@ namespace Talus
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
     bool                     with_grid = true, with_whole_grid = false, with_csv = false, with_final_state = true;
 
+    DirectoryLock                   lock;
     MPI_Comm                        communicator = MPI_COMM_NULL;
     std::vector<ParticleField<dim>> fields;
     std::vector<double>             times;         // of all outputs so far

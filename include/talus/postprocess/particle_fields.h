@@ -22,6 +22,9 @@ namespace Talus
     Evaluate                 evaluate;
   };
 
+  /** Names of the n components of a field: "velocity_x", ...; blanks become underscores. */
+  std::vector<std::string> component_names(const std::string &name, const unsigned int dim, const unsigned int n);
+
   /**
    * All quantities that a run can write: every field of `particles` and, derived, body, material,
    * displacement, von Mises stress, pressure, density, volume ratio, deviatoric

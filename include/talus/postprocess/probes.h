@@ -54,6 +54,10 @@ namespace Talus
      */
     void open(const std::string &directory, const WorkingSet<dim> &particles, const Grid<dim> &grid);
 
+    /** The same for a run that goes on from `time`. */
+    void reopen(const std::string &directory, const double time, const WorkingSet<dim> &particles,
+                const Grid<dim> &grid);
+
     /** Drops fields from those that the file chooses, of an object that is switched off; before open(). */
     void leave_out(const std::vector<std::string> &names) { Talus::leave_out(names, field_names); }
 
@@ -65,6 +69,7 @@ namespace Talus
   private:
     void check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const;
     void sample(const WorkingSet<dim> &particles);
+    void find(const WorkingSet<dim> &particles, const Grid<dim> &grid);
 
     std::vector<std::unique_ptr<Probe<dim>>> probes;
     std::vector<std::string>                 field_names{"position", "velocity", "stress"};

@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -22,13 +23,29 @@ namespace Talus
     /** Creates the file; all ranks throw alike. Collective. */
     void open(const std::string &path, const std::vector<Column> &columns, MPI_Comm communicator = MPI_COMM_WORLD);
 
+    /**
+     * Goes on with a file of the same columns, of which the first is a time: rows later than `time` are cut off, and
+     * one that was not finished. Throws InputError where there is no such file; all ranks throw alike. Collective.
+     */
+    void reopen(const std::string &path, const std::vector<Column> &columns, const double time,
+                MPI_Comm communicator = MPI_COMM_WORLD);
+
     /** One value for each column, the same on all ranks. */
     void write_row(const std::vector<double> &values);
 
   private:
+    std::string header() const;
+
+    /** Throws RunError where the file is not there any more, or another one. */
+    void check_is_there() const;
+
+    /** The number of bytes up to the end of the last row that is not later than `time`. */
+    std::uintmax_t length_until(const double time) const;
+
     std::string         path;
     std::vector<Column> columns;
     std::ofstream       file;
+    std::uintmax_t      number  = 0; // of the file in its file system
     bool                is_root = false;
   };
 

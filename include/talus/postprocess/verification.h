@@ -44,6 +44,9 @@ namespace Talus
     /** Keeps the errors for the table if a quarter or the whole of the run is over. Collective. */
     void record(const double time, const double end_time, const unsigned int step, const Particles<dim> &particles);
 
+    /** What has been measured so far. */
+    void serialize(Archive &archive);
+
     /** Writes them to a file, and as a table. Collective. */
     void write(const std::string &file_name, std::ostream &table) const;
 

@@ -39,6 +39,12 @@ namespace Talus
     /** Adds a step that has led to `now`. */
     void accumulate(const Moment &now, const double end_time, Model<dim> &model);
 
+    /** What they remember of the run so far. */
+    void serialize(Archive &archive);
+
+    /** Whether what they remember holds for this end time alone. */
+    bool hang_on_end_time() const { return comparison || verification; }
+
     /** Solves, writes into `directory` and says what is to be said of it. Collective. */
     std::string finish(const double time, const double end_time, const std::string &directory, Model<dim> &model);
 

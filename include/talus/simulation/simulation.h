@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/core/parameters.h>
+#include <talus/postprocess/checkpoints.h>
 #include <talus/postprocess/energies.h>
 #include <talus/postprocess/output.h>
 #include <talus/postprocess/probes.h>
@@ -9,6 +10,7 @@
 #include <talus/simulation/checks.h>
 #include <talus/simulation/references.h>
 #include <talus/simulation/resources.h>
+#include <talus/simulation/resume.h>
 #include <talus/steppers/energy_watch.h>
 #include <talus/steppers/fracture_watch.h>
 #include <talus/steppers/stepper.h>
@@ -29,16 +31,26 @@ namespace Talus
 
     void run();
 
+    /** The same from a checkpoint on; `is_longer`: to another end time. */
+    void go_on(const Resume &resume, const bool is_longer);
+
   private:
     bool is_finished() const { return now.time >= end_time || (max_steps > 0 && now.step >= max_steps); }
     void set_up();
-    void open_output();
+    void restore(const Resume &resume);
+    void open_output(const Resume *resume = nullptr);
+    void step_to_end();
     void fill_table();
     void advance();
     void check();
     void look_for_fracture();
     void postprocess();
+    void checkpoint();
     void finish();
+    void stop();
+
+    /** All that is remembered from one step to the next, beside the particles. Collective. */
+    void serialize(Archive &archive);
 
     Totals<dim> current_totals();
 
@@ -51,7 +63,7 @@ namespace Talus
     Parameters        &parameters;
     Resources          resources;
     Timing             timing;
-    unsigned int       output_section, reference_section; // of it
+    unsigned int       output_section, reference_section, checkpoint_section; // of it
     std::ofstream      log;
 
     Model<dim>                    model;
@@ -62,6 +74,7 @@ namespace Talus
     Output<dim>               output;
     Probes<dim>               probes;
     References<dim>           references;
+    Checkpoints               checkpoints;
     Table                     table; // of the statistics
     CsvFile                   statistics;
     std::unique_ptr<Progress> progress;
@@ -70,6 +83,8 @@ namespace Talus
     unsigned int max_steps = 0; // 0: no limit
 
     Moment                 now;
+    unsigned int           first_step = 0; // before which this program has begun
+    std::string            last_checkpoint;
     Report                 report;        // of the last step
     Totals<dim>            totals;        // of the last row of the statistics
     dealii::Tensor<1, dim> lost_momentum; // by empty nodes since the start [mass length/time]

@@ -44,6 +44,24 @@ namespace Talus
       return residual + transfer_loss + wall_loss + integration_loss + plastic_work;
     }
 
+    void serialize(Archive &archive)
+    {
+      const Archive::Scope scope(archive, "energy");
+      archive("body force work", body_force_work);
+      archive("condition work", condition_work);
+      archive("traction work", traction_work);
+      archive("contact work", contact_work);
+      archive("damping energy", damping_energy);
+      archive("initial energy", initial_energy);
+      archive("most available", most_available);
+      archive("floor", floor);
+      archive("kinetic energy", kinetic_energy);
+      archive("transfer loss", transfer_loss);
+      archive("wall loss", wall_loss);
+      archive("integration loss", integration_loss);
+      archive("contact friction work", friction_work);
+    }
+
     /** What was put in and taken out. */
     void add_to(Table &table) const
     {

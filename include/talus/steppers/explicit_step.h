@@ -27,6 +27,7 @@ namespace Talus
     Report      start(Model<dim> &model, Timing &timing) override;
     double      step_size(const Model<dim> &model, const Report &last) const override;
     Report      advance(Model<dim> &model, const Report &last, const double time, const double dt) override;
+    void        serialize(Archive &archive) override { upkeep.serialize(archive); }
     std::string warning(const Model<dim> &model) const override;
     std::string summary() const override;
 

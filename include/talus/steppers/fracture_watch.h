@@ -31,6 +31,9 @@ namespace Talus
     /** A sentence on what has come apart, without its end, once in a run; else nothing. Collective. */
     std::string look(const Model<dim> &model);
 
+    /** Whether it has told. */
+    void serialize(Archive &archive) { archive("fracture.has told", has_told); }
+
     /** The greatest distance of neighbours over the kernel's reach. */
     void add_to(Table &table) const { table.add("neighbour distance", "reach", distance); }
 

@@ -3,6 +3,7 @@
 #include <talus/boundary/condition.h>
 #include <talus/core/body_force.h>
 #include <talus/core/parameters.h>
+#include <talus/core/requests.h>
 #include <talus/loads/contact.h>
 #include <talus/particles/material_range.h>
 #include <talus/particles/overlaps.h>
@@ -50,6 +51,15 @@ namespace Talus
      */
     double material_factor() const;
 
+    /**
+     * Shares the cells out anew by the numbers of particles in them, as Grid::repartition() does, and the particles
+     * with them; their order is then canonical, and all nodes are active. Collective.
+     */
+    void repartition(const std::vector<double> &counts);
+
+    /** What the parts remember from one step to the next, beside the particles, which are there before. Collective. */
+    void serialize(Archive &archive);
+
     /** Registers what the parts know of the last step, for all ranks. */
     void add_to(Reduction &reduction);
 
@@ -76,15 +86,21 @@ namespace Talus
     FBar<dim>                               f_bar;
     BodyForce<dim>                          acceleration; // body force per mass
     EnergyAccount<dim>                      account;
+    Requests                                requests;
 
   private:
     void build_bodies(Parameters &parameters);
     void build_conditions(Parameters &parameters);
+
+    /** Tells the parts of the grid's nodes. */
+    void attach();
 
     /** Throws EntryError where the particles need more memory than there is, and says how much of it they need.
      * Collective. */
     void check_memory() const;
 
     std::string acceleration_text;
+    std::vector<double>
+      last_counts; // by which cells were shared out: this rank's part; by the bodies if nobody's is there
   };
 } // namespace Talus

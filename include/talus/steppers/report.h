@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/archive.h>
 #include <talus/core/reduction.h>
 
 #include <string>
@@ -14,23 +15,39 @@ namespace Talus
     bool   needs_migration  = false;
     bool   needs_activation = false;
 
+    double most_particles   = 0; // that a rank has
     double mass             = 0; // [mass]
     double kinetic_energy   = 0; // [energy]
     double body_force_power = 0; // sum m b . v [energy/time]
 
     bool        has_failed = false; // a particle broke a limit of validity
     std::string failure, remedy;    // then: which did so where, and what to do
+    std::string news;               // a sentence for the log, or nothing
 
     void add_to(Reduction &reduction)
     {
       reduction.max(signal_speed);
       reduction.max(displacement);
+      reduction.max(most_particles);
       reduction.any(needs_migration);
       reduction.any(needs_activation);
       reduction.any(has_failed);
       reduction.sum(mass);
       reduction.sum(kinetic_energy);
       reduction.sum(body_force_power);
+    }
+
+    void serialize(Archive &archive)
+    {
+      const Archive::Scope scope(archive, "report");
+      archive("signal speed", signal_speed);
+      archive("displacement", displacement);
+      archive("most particles", most_particles);
+      archive("needs migration", needs_migration);
+      archive("needs activation", needs_activation);
+      archive("mass", mass);
+      archive("kinetic energy", kinetic_energy);
+      archive("body force power", body_force_power);
     }
   };
 
@@ -42,5 +59,12 @@ namespace Talus
 
     /** As it stands in messages: " in step 3, t = 0.1, dt = 0.01". */
     std::string text() const;
+
+    void serialize(Archive &archive)
+    {
+      archive("step", step);
+      archive("time", time);
+      archive("step size", dt);
+    }
   };
 } // namespace Talus

@@ -22,6 +22,9 @@ namespace Talus
     /** A step from `time` to time + dt; `last` is the report of the one before. Collective. */
     virtual Report advance(Model<dim> &model, const Report &last, const double time, const double dt) = 0;
 
+    /** What it remembers of the steps before. Collective. */
+    virtual void serialize(Archive &archive) = 0;
+
     /** What a user should know before the first step, or nothing; after start(). */
     virtual std::string warning(const Model<dim> &) const { return ""; }
 

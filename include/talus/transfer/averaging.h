@@ -30,9 +30,6 @@ namespace Talus
       std::array<double *, dim> gradient{}; // null: constant around each particle, and none is wanted
     };
 
-    /** Makes the nodes' array. */
-    void reinit(const Grid<dim> &grid) { fields.reinit(grid.nodes); }
-
     /**
      * Replaces numbers of the particles begin .. end - 1 by their averages among these; unused quantities have no
      * arrays. Nodes without mass have the numbers of `empty`. Collective.

@@ -28,7 +28,7 @@ namespace Talus
     void add_fields(WorkingSet<dim> &particles);
 
     /** Begins with J-bar = J. */
-    void initialize(Particles<dim> &particles, const Grid<dim> &grid);
+    void initialize(Particles<dim> &particles);
 
     /** Sets what the materials see, when F and volume are those at the end of the step. Collective. */
     void apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel, const double dt,

@@ -1,0 +1,92 @@
+#include <talus/simulation/simulation.h>
+
+#include <talus/core/command_line.h>
+#include <talus/core/exceptions.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void Simulation<dim>::go_on(const Resume &resume, const bool is_longer)
+  {
+    AssertThrow(!is_longer || !references.hang_on_end_time(),
+                InputError("a run that is compared with a reference cannot go on to another end time: what it has "
+                           "measured so far belongs to the old one. Leave out 'End time', or start a new run."));
+    set_up();
+    restore(resume);
+    AssertThrow(!is_finished(), InputError("the run in '" + resume.directory + "' is at its end:" + now.text() +
+                                           ". Give a later one, --set \"Run/End time = ...\" or more "
+                                           "'Number of steps', if it is to go on."));
+    open_output(&resume);
+    for (const auto &warning : resume.warnings)
+      say_warning(warning + "; it is left out.");
+    step_to_end();
+  }
+
+  template <int dim>
+  void Simulation<dim>::restore(const Resume &resume)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    CheckpointFile     file(resume.file);
+    const auto         partition = file.archive(0, false).all_of_rank().at("partition");
+    if (!partition.empty() && Utilities::MPI::n_mpi_processes(communicator) > 1)
+      model.repartition(rank == 0 || !model.grid.keeps_places() ? partition : std::vector<double>());
+    // Exact if each rank has the part of the grid that it had.
+    bool is_same = file.n_ranks == Utilities::MPI::n_mpi_processes(communicator);
+    if (is_same)
+      is_same = file.archive(rank, true).all_of_rank().at("grid.share") == model.grid.share();
+    const bool is_exact = !Utilities::MPI::logical_or(!is_same, communicator);
+    Archive    archive  = file.archive(rank, is_exact);
+    file.read(model.particles, is_exact, communicator);
+    model.particles.take_over(is_exact);
+    serialize(archive);
+    first_step = now.step;
+  }
+
+  template <int dim>
+  void Simulation<dim>::serialize(Archive &archive)
+  {
+    now.serialize(archive);
+    report.serialize(archive);
+    archive("lost momentum", lost_momentum);
+    model.serialize(archive);
+    stepper->serialize(archive);
+    energy.serialize(archive);
+    fracture.serialize(archive);
+    output.serialize(archive);
+    references.serialize(archive);
+  }
+
+  template <int dim>
+  void Simulation<dim>::checkpoint()
+  {
+    const bool is_last = model.requests.is_stopped() && !is_finished();
+    if (!is_last && !model.requests.wants_checkpoint && !checkpoints.is_due(now))
+      return;
+    const Timing::Scope scope(timing, checkpoint_section);
+    Archive             archive;
+    serialize(archive);
+    last_checkpoint =
+      checkpoints.write({version(), parameters.settings_text(), now.step, now.time}, archive, model.particles);
+  }
+
+  template <int dim>
+  void Simulation<dim>::stop()
+  {
+    progress->finish(now.time, now.step);
+    say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
+        resources.memory(model.particles.n_global) + "Stopped by " + model.requests.signal_name() + now.text() +
+        ". It goes on with: talus --resume " + output.directory() + "\nCheckpoint " + last_checkpoint + '\n');
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template void Simulation<dim>::go_on(const Resume &, const bool);                                                    \
+  template void Simulation<dim>::restore(const Resume &);                                                              \
+  template void Simulation<dim>::serialize(Archive &);                                                                 \
+  template void Simulation<dim>::checkpoint();                                                                         \
+  template void Simulation<dim>::stop();
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
