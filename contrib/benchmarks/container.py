@@ -70,7 +70,7 @@ def row(result):
             error = max(error, np.max(np.abs(p[1:] - p[0] - np.cumsum(force * columns["step size"][1:]))))
         values.update({"particles": len(result.particles()["id"]), "off centre": off_centre(result), "farthest": farthest(result),
                        "nearness": np.max(columns["contact nearness wall"]),
-                       "energy": np.max(np.abs(columns["energy residual"])) / first,
+                       "energy": np.max(np.abs(columns["unaccounted energy"])) / first,
                        "kinetic": columns["kinetic energy"][-1] / np.max(columns["kinetic energy"]),
                        "momentum": error / scale, "friction": columns["contact work"][-1] / first})
     return values

@@ -64,7 +64,7 @@ def outputs(result):
 def balance(result):
     """Energy that is not accounted for, over the work of gravity; momentum over the greatest one."""
     columns = result.statistics()
-    energy = np.max(np.abs(columns["energy residual"])) / np.max(columns["body force work"])
+    energy = np.max(np.abs(columns["unaccounted energy"])) / np.max(columns["body force work"])
     return energy, meshes.impulses(columns, (0, -G), surfaces=((f"reaction {WALLS[result.run.label['walls']]}", -1),))
 
 

@@ -222,7 +222,13 @@ namespace Talus
   template <int dim>
   Totals<dim> Simulation<dim>::current_totals()
   {
-    return Talus::totals(model.particles, *model.transfer, model.materials, communicator);
+    // The law stores the energy of its own stress.
+    if (model.f_bar.is_on)
+      model.f_bar.remove_added(model.particles, 0, model.particles.size());
+    const auto sums = Talus::totals(model.particles, *model.transfer, model.materials, communicator);
+    if (model.f_bar.is_on)
+      model.f_bar.add_added(model.particles, 0, model.particles.size());
+    return sums;
   }
 
   template <int dim>

@@ -7,11 +7,15 @@ namespace Talus
 
   namespace
   {
+    /** Of what the materials see. */
     template <int dim, class Batch>
     [[gnu::always_inline]] inline Tensor<2, dim, typename Batch::Number> relative_deformation(
-      const Batch &batch, const std::array<double *, dim * dim> &grad_v, const double dt)
+      const Batch &batch, const MaterialRange &range)
     {
-      auto f = dt * load_matrix<dim>(batch, grad_v);
+      Tensor<2, dim, typename Batch::Number> f;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          f[d][e] = range.dt * batch.load(range.grad_v[3 * d + e]);
       for (unsigned int d = 0; d < dim; ++d)
         f[d][d] += 1.;
       return f;
@@ -21,11 +25,10 @@ namespace Talus
     template <int dim>
     void deform(Particles<dim> &particles, const MaterialRange &range)
     {
-      const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
       const auto F      = particles.template components<dim * dim>(particles.F);
       const auto volume = particles.component(particles.volume, 0);
       for_each_batch(range.begin, range.end, [&](const auto batch) {
-        const auto f = relative_deformation<dim>(batch, grad_v, range.dt);
+        const auto f = relative_deformation<dim>(batch, range);
         store_matrix(batch, F, f * load_matrix<dim>(batch, F));
         batch.store(volume, batch.load(volume) * determinant(f));
       });
@@ -35,12 +38,11 @@ namespace Talus
     template <int dim>
     void dilate(Particles<dim> &particles, const MaterialRange &range, const double reference_density)
     {
-      const auto grad_v = particles.template components<dim * dim>(particles.grad_v);
       const auto J      = particles.component(particles.F, 0);
       const auto mass   = particles.component(particles.mass, 0);
       const auto volume = particles.component(particles.volume, 0);
       for_each_batch(range.begin, range.end, [&](const auto batch) {
-        const auto V = batch.load(volume) * determinant(relative_deformation<dim>(batch, grad_v, range.dt));
+        const auto V = batch.load(volume) * determinant(relative_deformation<dim>(batch, range));
         batch.store(volume, V);
         batch.store(J, reference_density * V / batch.load(mass));
       });

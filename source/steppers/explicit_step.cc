@@ -149,6 +149,10 @@ namespace Talus
                 ExcMessage("Particles have strayed from their rank, or left the grid: the nodes would miss what they "
                            "carry. Upkeep comes before the next step."));
     {
+      const Timing::Scope scope(*timing, f_bar);
+      model.f_bar.average_stress(model.materials.size(), *model.kernel, model.particles, model.grid);
+    }
+    {
       const Timing::Scope scope(*timing, particle_to_grid);
       model.boundary.mark_slip_walls(time + dt, model.particles.n_stencil_nodes, model.grid);
       model.grid.clear();
@@ -170,6 +174,7 @@ namespace Talus
       range.is_plain = model.transfer->is_plain;
     watch->start(ranges, time + dt, dt);
     particles.start_relocation();
+    model.f_bar.start(particles);
 
     const unsigned int block        = dim == 2 ? 1024 : 512;
     double             displacement = 0;
@@ -185,15 +190,17 @@ namespace Talus
       const Timing::Scope scope(*timing, musl_section);
       musl.apply(model, time, dt);
     }
-    sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
-      deform(particles, model.materials, ranges, begin, end);
-    });
     if (model.f_bar.is_on)
     {
       sweep.run(particles.size(), block);
       const Timing::Scope scope(*timing, f_bar);
-      model.f_bar.apply(model.materials, *model.kernel, dt, particles, model.grid);
+      model.f_bar.average_rate(model.materials.size(), *model.kernel, dt, particles, model.grid);
     }
+    sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
+      deform(particles, model.materials, ranges, begin, end);
+      if (model.f_bar.is_on)
+        model.f_bar.remove_added(particles, begin, end);
+    });
     const auto count = [&](const bool is_end) {
       if (model.account.is_on)
         sweep.add(stress, [&, is_end](const unsigned int begin, const unsigned int end) {
@@ -207,6 +214,10 @@ namespace Talus
         model.materials[m]->update(intersection(ranges[m], begin, end)); // Eqs. (28)-(30)
     });
     count(/* is_end = */ true);
+    if (model.f_bar.is_on)
+      sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
+        model.f_bar.add_added(particles, begin, end);
+      });
     sweep.add(relocate, [&](const unsigned int begin, const unsigned int end) {
       particles.relocate(begin, end);
       watch->look_at(begin, end);

@@ -49,6 +49,10 @@ namespace Talus
                   Patterns::Double());
     add_parameter("F-bar", f_bar.is_on,
                   "Materials see volumes that are averaged over the grid, against volumetric locking.");
+    add_parameter("F-bar averages", f_bar.n_passes,
+                  "How often volumes are averaged: one leaves 15 % of a wave of two spacings with quadratic B-splines, "
+                  "two leave 2 %.",
+                  prm, Patterns::Integer(1, 10));
     add_parameter("Energy account", account.is_on,
                   "Statistics say what transfer, walls, friction and plastic flow have taken of the energy.");
   }

@@ -1,25 +1,19 @@
 #include <talus/particles/batch_access.h>
 #include <talus/transfer/f_bar.h>
 
+#include <algorithm>
+
 namespace Talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** x^(1/dim) */
-    template <int dim, typename Number>
-    Number root(const Number &x)
-    {
-      return dim == 2 ? sqrt(x) : exp(log(x) / double(dim));
-    }
-  } // namespace
-
   template <int dim>
   void FBar<dim>::add_fields(WorkingSet<dim> &particles)
   {
-    if (is_on)
-      add_seen_fields(particles);
+    if (!is_on)
+      return;
+    add_seen_gradient(particles);
+    added_stress = particles.add_field("mean stress that averaging adds", 1);
   }
 
   template <int dim>
@@ -27,71 +21,122 @@ namespace Talus
   {
     if (!is_on)
       return;
-    const auto seen = seen_fields(particles);
-    const auto copy = [&](const unsigned int from, const unsigned int to) {
-      for (unsigned int c = 0; c < particles.fields[from].n_components; ++c)
-        std::copy_n(particles.component(from, c), particles.size(), particles.component(to, c));
-    };
-    copy(particles.F, seen.F);
-    copy(particles.volume, seen.volume);
-    copy(particles.grad_v, seen.grad_v);
+    const unsigned int seen = seen_gradient(particles);
+    for (unsigned int c = 0; c < dim * dim; ++c)
+      std::copy_n(particles.component(particles.grad_v, c), particles.size(), particles.component(seen, c));
   }
 
   template <int dim>
-  void FBar<dim>::apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel,
-                        const double dt, Particles<dim> &particles, const Grid<dim> &grid)
+  void FBar<dim>::average(const MaterialRange &range, const bool is_adjoint, const Kernel<dim> &kernel,
+                          Particles<dim> &particles, const Grid<dim> &grid)
   {
-    if (!is_on)
-      return;
-    mean.resize(particles.size());
-    weight.assign(particles.size(), 1.);
-    const double *volume = particles.component(particles.volume, 0), *mass = particles.component(particles.mass, 0);
-    for (unsigned int m = 0; m < materials.size(); ++m)
-    {
-      const MaterialRange range = material_range(particles, m, dt);
-      for (unsigned int p = range.begin; p < range.end; ++p)
-        mean[p] = materials[m]->density * volume[p] / mass[p];
+    // Without the division the average is its own adjoint, in the metric of the masses. What it makes of ones:
+    std::vector<double> sum(particles.size(), 1.);
+    const auto          apply = [&](std::vector<double> &a) {
       std::array<typename Averaging<dim>::Quantity, dim> quantities;
-      quantities[0].value = mean.data();
-      quantities[1].value = weight.data();
-      std::array<double, dim> empty{};
-      averaging.apply(quantities, empty, particles, range.begin, range.end, kernel, grid);
-      update(range, *materials[m], particles);
+      quantities[0].value = a.data();
+      averaging.apply(quantities, /* empty = */ {}, particles, range.begin, range.end, kernel, grid);
+    };
+    const auto divide = [&] {
+      for (unsigned int p = range.begin; p < range.end; ++p)
+        mean[p] /= sum[p];
+    };
+    if (kernel.product_form()) // all others sum to one
+      apply(sum);
+    for (unsigned int n = 0; n < n_passes; ++n)
+    {
+      if (is_adjoint)
+        divide();
+      apply(mean);
+      if (!is_adjoint)
+        divide();
     }
   }
 
   template <int dim>
-  void FBar<dim>::update(const MaterialRange &range, const Material &material, Particles<dim> &particles) const
+  void FBar<dim>::average_stress(const unsigned int n_materials, const Kernel<dim> &kernel, Particles<dim> &particles,
+                                 const Grid<dim> &grid)
   {
-    const auto    seen     = seen_fields(particles);
-    const auto    grad_v   = particles.template components<dim * dim>(particles.grad_v);
-    const auto    F        = particles.template components<dim * dim>(particles.F);
-    const auto    grad_bar = particles.template components<dim * dim>(seen.grad_v);
-    const auto    F_bar    = particles.template components<dim * dim>(seen.F);
+    if (!is_on)
+      return;
+    remove_added(particles, 0, particles.size());
+    mean.resize(particles.size());
     const double *volume = particles.component(particles.volume, 0), *mass = particles.component(particles.mass, 0);
-    double *const V_bar   = particles.component(seen.volume, 0);
-    const double  density = material.density, dt = range.dt;
-    const bool    is_fluid = material.carries_volume_only();
-    for_each_batch(range.begin, range.end, [&](const auto batch) {
-      using Number   = typename std::decay_t<decltype(batch)>::Number;
-      const Number V = batch.load(volume), old = batch.load(V_bar);
-      const Number J   = batch.load(mean.data()) / batch.load(weight.data());
-      const Number now = J * batch.load(mass) / density;
-      const auto   L   = load_matrix<dim>(batch, grad_v);
-      auto         f   = dt * L;
+    double *const added = particles.component(added_stress, 0);
+    for (unsigned int p = 0; p < particles.size(); ++p)
+    {
+      added[p] = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        added[p] -= particles.component(particles.stress, d)[p] / dim;
+      mean[p] = -added[p] * volume[p] / mass[p];
+    }
+    for (unsigned int m = 0; m < n_materials; ++m)
+      average(material_range(particles, m, /* dt = */ 0.), /* is_adjoint = */ true, kernel, particles, grid);
+    for (unsigned int p = 0; p < particles.size(); ++p)
+      added[p] += mean[p] * mass[p] / volume[p];
+    add_added(particles, 0, particles.size());
+  }
+
+  template <int dim>
+  void FBar<dim>::change_stress(Particles<dim> &particles, const double sign, const unsigned int begin,
+                                const unsigned int end) const
+  {
+    const double *added = particles.component(added_stress, 0);
+    for (unsigned int d = 0; d < 3; ++d) // zz in plane strain as well: it is the mean that is averaged
+    {
+      double *stress = particles.component(particles.stress, d);
+      for (unsigned int p = begin; p < end; ++p)
+        stress[p] += sign * added[p];
+    }
+  }
+
+  template <int dim>
+  void FBar<dim>::start(const Particles<dim> &particles)
+  {
+    if (!is_on)
+      return;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const double *x = particles.component(particles.position, d);
+      position[d].assign(x, x + particles.size());
+    }
+  }
+
+  template <int dim>
+  void FBar<dim>::exchange_positions(Particles<dim> &particles)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      std::swap_ranges(position[d].begin(), position[d].end(), particles.component(particles.position, d));
+  }
+
+  template <int dim>
+  void FBar<dim>::average_rate(const unsigned int n_materials, const Kernel<dim> &kernel, const double dt,
+                               Particles<dim> &particles, const Grid<dim> &grid)
+  {
+    mean.resize(particles.size());
+    own.resize(particles.size());
+    const auto grad_v = particles.template components<dim * dim>(particles.grad_v),
+               seen   = particles.template components<dim * dim>(seen_gradient(particles));
+    for_each_batch(0, particles.size(), [&](const auto batch) {
+      using Number = typename std::decay_t<decltype(batch)>::Number;
+      auto f       = dt * load_matrix<dim>(batch, grad_v);
       for (unsigned int d = 0; d < dim; ++d)
         f[d][d] += 1.;
-      // f-bar = s f has the determinant V-bar / V-bar of the last step.
-      const Number s             = root<dim>(Number(now / (old * determinant(f))));
-      auto         seen_gradient = s * L;
+      const Number change = log(Number(determinant(f)));
+      batch.store(mean.data(), change);
+      batch.store(own.data(), change);
+    });
+    exchange_positions(particles);
+    for (unsigned int m = 0; m < n_materials; ++m)
+      average(material_range(particles, m, dt), /* is_adjoint = */ false, kernel, particles, grid);
+    exchange_positions(particles);
+    for_each_batch(0, particles.size(), [&](const auto batch) {
+      using Number   = typename std::decay_t<decltype(batch)>::Number;
+      const Number s = exp((batch.load(mean.data()) - batch.load(own.data())) / double(dim));
+      auto         L = s * load_matrix<dim>(batch, grad_v);
       for (unsigned int d = 0; d < dim; ++d)
-        seen_gradient[d][d] += (s - 1.) / dt;
-      store_matrix(batch, grad_bar, seen_gradient);
-      if (is_fluid)
-        batch.store(F_bar[0], J); // the rest of diag(J, 1, 1) stays
-      else
-        store_matrix(batch, F_bar, root<dim>(Number(now / V)) * load_matrix<dim>(batch, F));
-      batch.store(V_bar, now);
+        L[d][d] += (s - 1.) / dt;
+      store_matrix(batch, seen, L);
     });
   }
 

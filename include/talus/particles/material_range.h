@@ -7,19 +7,14 @@
 
 namespace Talus
 {
-  /** Fields of what materials see of the deformation where that is not the particles' own: see FBar. */
-  struct SeenFields
-  {
-    unsigned int F, grad_v, volume;
-  };
-
-  /** Adds them. Before the first particle exists. */
+  /** Adds a field for the velocity gradient by which particles deform where that is not their own: see FBar. Before the
+   * first particle exists. */
   template <int dim>
-  SeenFields add_seen_fields(WorkingSet<dim> &particles);
+  void add_seen_gradient(WorkingSet<dim> &particles);
 
-  /** Those that have been added, else the particles' own. */
+  /** The field if it has been added, else that of the particles' own. */
   template <int dim>
-  SeenFields seen_fields(const WorkingSet<dim> &particles);
+  unsigned int seen_gradient(const WorkingSet<dim> &particles);
 
   /** What material `m` sees of its particles. The arrays are valid until particles are sorted or migrate. */
   template <int dim>

@@ -6,15 +6,17 @@
 namespace Talus
 {
   /**
-   * F-bar by averaging over the grid, Zhao, Jiang & Choo (2023), against volumetric locking: materials see
-   * @f[ \bar F = (\bar J / J)^{1/d} F , \qquad
-   *     \bar J_p = \frac{\sum_i \phi_{ip} \bar J_i}{\sum_i \phi_{ip}} , \quad
-   *     \bar J_i = \frac{\sum_p m_p \phi_{ip} J_p}{\sum_p m_p \phi_{ip}} , @f]
-   * J = rho V / m, averaged over the particles of their material; a step of the law the velocity gradient that leads
-   * from the last F-bar to the new one. Kernels are not corrected at the domain's faces, so that no weight is negative;
-   * what is missing is divided out. F, volume and grad v of the particles, and with them the forces' volumes and the
-   * transfer, stay as they are. Particles carry what materials see as further fields, which material_range() finds by
-   * their names. Theory: doc/materials.md. Test: tests/transfer/f_bar.cc.
+   * Volumes that are averaged over the grid, against volumetric locking: particles deform by f-bar, not by f = I + dt
+   * grad v,
+   * @f[ \bar f = (\bar\jmath / j)^{1/d} f , \quad j = \det f , \quad \ln\bar\jmath = A \ln j , \quad
+   *     (A a)_p = \frac{1}{\sum_i \phi_{ip}} \sum_i \phi_{ip} \frac{\sum_q m_q \phi_{iq} a_q}{\sum_q m_q \phi_{iq}} ,
+   * @f] A applied `n_passes` times among the particles of a material. What the nodes get is the adjoint of that: the
+   * mean stress p = tr sigma / d acts as @f$ (m/V) A^T (V p/m) @f$, with the weights of the same step, so that force
+   * and strain exchange no energy but that of the law. F, J and V of the particles are those of f-bar; their grad v
+   * stays. The change of volume is averaged, not the volume: what the average does not see is never seen, wherever
+   * particles go. Zhao, Jiang & Choo (2023) average J, and do not average the stress. Kernels are not corrected at the
+   * domain's faces, so that no weight of a product kernel is negative; what is missing is divided out. Theory:
+   * doc/materials.md. Test: tests/transfer/averaging.cc.
    */
   template <int dim>
   class FBar
@@ -22,23 +24,48 @@ namespace Talus
   public:
     explicit FBar(Parameters &parameters) : averaging(parameters, "none") {}
 
-    bool is_on = false;
+    bool         is_on    = false;
+    unsigned int n_passes = 2; // two: a wave of two spacings leaves 2 % of itself
 
     /** Adds its fields to the particles. Before the first particle exists. */
     void add_fields(WorkingSet<dim> &particles);
 
-    /** Begins with J-bar = J. */
+    /** Before the first step. */
     void initialize(Particles<dim> &particles);
 
-    /** Sets what the materials see, when F and volume are those at the end of the step. Collective. */
-    void apply(const std::vector<std::unique_ptr<Material>> &materials, const Kernel<dim> &kernel, const double dt,
-               Particles<dim> &particles, const Grid<dim> &grid);
+    /** Makes the stress that of the nodes' forces, where particles are. Before a transfer to the nodes. Collective. */
+    void average_stress(const unsigned int n_materials, const Kernel<dim> &kernel, Particles<dim> &particles,
+                        const Grid<dim> &grid);
+
+    /** Leaves the stress of the law, and puts back what has been added to it: around a step of the law. */
+    void remove_added(Particles<dim> &particles, const unsigned int begin, const unsigned int end) const
+    {
+      change_stress(particles, -1, begin, end);
+    }
+    void add_added(Particles<dim> &particles, const unsigned int begin, const unsigned int end) const
+    {
+      change_stress(particles, 1, begin, end);
+    }
+
+    /** Remembers where particles are, before they move. */
+    void start(const Particles<dim> &particles);
+
+    /** Sets the velocity gradient by which particles deform, from theirs, with the weights of start(). Collective. */
+    void average_rate(const unsigned int n_materials, const Kernel<dim> &kernel, const double dt,
+                      Particles<dim> &particles, const Grid<dim> &grid);
 
   private:
-    /** The same of one material's particles, whose mean J and sum of weights are in the two arrays. */
-    void update(const MaterialRange &range, const Material &material, Particles<dim> &particles) const;
+    void change_stress(Particles<dim> &particles, const double sign, const unsigned int begin,
+                       const unsigned int end) const;
+    void exchange_positions(Particles<dim> &particles);
 
-    Averaging<dim>      averaging;
-    std::vector<double> mean, weight;
+    /** Averages `mean` of one material's particles, or does the adjoint of that. */
+    void average(const MaterialRange &range, const bool is_adjoint, const Kernel<dim> &kernel,
+                 Particles<dim> &particles, const Grid<dim> &grid);
+
+    Averaging<dim>                       averaging;
+    unsigned int                         added_stress = 0; // the field
+    std::vector<double>                  mean, own;
+    std::array<std::vector<double>, dim> position;
   };
 } // namespace Talus
