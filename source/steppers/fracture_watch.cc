@@ -55,7 +55,7 @@ namespace Talus
   template <int dim>
   Tensor<1, dim> FractureWatch<dim>::neighbour(const Model<dim> &model, const unsigned int p) const
   {
-    const auto F     = model.particles.matrix(model.particles.F, p);
+    const auto F      = model.particles.matrix(model.particles.F, p);
     const auto system = eigen_system<dim>(symmetrize(F * transpose(F)));
     // The direction of the greatest stretch.
     unsigned int a = 0;

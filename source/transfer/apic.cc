@@ -23,7 +23,7 @@ namespace Talus
       if (D.norm() < smallest)
         return grad_v;
       Tensor<2, dim> C;
-      const auto system = eigen_system<dim>(D);
+      const auto     system = eigen_system<dim>(D);
       for (unsigned int a = 0; a < dim; ++a)
       {
         Tensor<1, dim> e;
