@@ -163,7 +163,7 @@ namespace
                    contains(base + "/out/" + name + ".pvd", "file=\"" + name + "_00001.vtu\""));
     check_true("a table for each" + d, lines(base + "/out/particles_00001.csv").size() == run.particles.n_global + 2);
     const unsigned int n_files = std::distance(fs::directory_iterator(base + "/out"), fs::directory_iterator());
-    check_true("and no other file" + d, n_files == 8);
+    check_true("and no other file but the lock" + d, n_files == 8 + 1 && fs::exists(base + "/out/talus.lock"));
     MPI_Barrier(MPI_COMM_WORLD);
 
     if (is_root())
