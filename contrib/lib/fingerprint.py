@@ -33,7 +33,7 @@ class Build:
         for file in (self.talus, self.library):
             if not file.exists():
                 runs.stop(f"there is no '{file}'. Build it, or name another directory.")
-        self.unknown = set()  # entries that an older program lacks, as (section, entry)
+        self.unknown = set()  # entries that an older program lacks
 
     def command(self, ranks, *arguments):
         line = ["env", f"LD_PRELOAD={self.library}", str(self.talus), *arguments]
@@ -84,8 +84,8 @@ def run(build, case, directory):
     settings = {**case.settings, "Output/Directory": directory, "Output/Overwrite": "true"}
     text = (runs.ROOT / case.prm).read_text()
     prm = pathlib.Path(f"{directory}.prm")
+    without = set()
     while True:
-        without = [entry for _, entry in build.unknown]
         prm.write_text("".join(line for line in text.splitlines(keepends=True)
                                if not re.match(rf"\s*set ({'|'.join(map(re.escape, without)) or '$'})\s*=", line)))
         known = {entry: value for entry, value in settings.items() if entry.split("/")[-1] not in without}
@@ -93,11 +93,13 @@ def run(build, case, directory):
         if finished.returncode == 0:
             break
         entry = re.search(r"unknown entry '(.*?)' in section '(.*?)'", finished.stdout)
-        if entry is None or (entry[2], entry[1]) in build.unknown:
+        if entry is None or entry[1] in without:
             raise RuntimeError(next((line for line in finished.stdout.splitlines() if line.startswith("talus: ")),
                                     f"exit status {finished.returncode}"))
-        print(f"Left out of {build.talus}'s runs, which do not know it: '{entry[1]}' in '{entry[2]}'", file=sys.stderr)
-        build.unknown.add((entry[2], entry[1]))
+        without.add(entry[1])
+        if entry[1] not in build.unknown:
+            print(f"Left out where {build.talus} does not know it: '{entry[1]}' in '{entry[2]}'", file=sys.stderr)
+        build.unknown.add(entry[1])
     directory = pathlib.Path(directory)
     particles = read_table(max(directory.glob("particles_*.csv")))
     migrations = re.search(r"(\d+) migrations", finished.stdout)
@@ -105,13 +107,12 @@ def run(build, case, directory):
 
 
 def difference(ours, others):
-    """The largest relative difference of two particle tables, and its column."""
-    if sorted(ours) != sorted(others):
-        return np.inf, "other columns"
+    """The largest relative difference of two particle tables in the columns that both have, and its column."""
     if not np.array_equal(ours["id"], others["id"]):
         return np.inf, "other ids"
     worst = (0., "")
-    for name, column in ours.items():
+    for name in [name for name in ours if name in others]:
+        column = ours[name]
         largest = np.max(np.abs(column))
         change = np.max(np.abs(column - others[name]))
         if change > 0:
