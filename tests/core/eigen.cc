@@ -62,4 +62,26 @@ void eigen_systems()
   check("one", error, 1e-14);
   check("lanes", error_of_lanes, 1e-14);
   check("zero", error_of(SymmetricTensor<2, 3>(), 0), 1e-15);
+
+  // In the plane the third eigenvector is across it, with the eigenvalue 0.
+  double error_in_plane = 0;
+  for (unsigned int k = 0; k < 60; ++k)
+  {
+    SymmetricTensor<2, 2> A;
+    for (unsigned int i = 0; i < 2; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        A[i][j] = some(k)[i][j];
+    const auto system = eigen_system(A);
+    for (unsigned int i = 0; i < 2; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+      {
+        double sum = 0;
+        for (unsigned int a = 0; a < 2; ++a)
+          sum += system.value[a] * system.vector[i][a] * system.vector[j][a];
+        raise(error_in_plane, (sum - A[i][j]) / (A.norm() + 1e-300));
+      }
+    raise(error_in_plane, system.value[2] / (A.norm() + 1e-300));
+    raise(error_in_plane, std::abs(system.vector[2][2]) - 1);
+  }
+  check("in the plane", error_in_plane, 1e-14);
 }
