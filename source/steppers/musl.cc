@@ -12,28 +12,11 @@ namespace Talus
   }
 
   template <int dim>
-  void Musl<dim>::start(const Particles<dim> &particles)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double *x = particles.component(particles.position, d);
-      position[d].assign(x, x + particles.size());
-    }
-  }
-
-  template <int dim>
-  void Musl<dim>::exchange_positions(Particles<dim> &particles)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      std::swap_ranges(position[d].begin(), position[d].end(), particles.component(particles.position, d));
-  }
-
-  template <int dim>
   void Musl<dim>::apply(Model<dim> &model, const double time, const double dt)
   {
     Grid<dim> &grid          = model.grid;
     const auto lost_momentum = grid.lost_momentum;
-    exchange_positions(model.particles);
+    positions.exchange(model.particles);
     grid.clear();
     model.walls.clear();
     model.transfer->particle_to_grid(model.particles, *model.kernel, no_force, time, grid);
@@ -48,7 +31,7 @@ namespace Talus
     model.walls.fill();
     model.account.repeat(dt, grid, model.walls);
     gather_velocity_gradient(grid, *model.kernel, model.transfer->is_plain, model.particles);
-    exchange_positions(model.particles);
+    positions.exchange(model.particles);
     grid.lost_momentum = lost_momentum;
   }
 

@@ -95,18 +95,7 @@ namespace Talus
   {
     if (!is_on)
       return;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      const double *x = particles.component(particles.position, d);
-      position[d].assign(x, x + particles.size());
-    }
-  }
-
-  template <int dim>
-  void FBar<dim>::exchange_positions(Particles<dim> &particles)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      std::swap_ranges(position[d].begin(), position[d].end(), particles.component(particles.position, d));
+    positions.keep(particles);
   }
 
   template <int dim>
@@ -126,10 +115,10 @@ namespace Talus
       batch.store(mean.data(), change);
       batch.store(own.data(), change);
     });
-    exchange_positions(particles);
+    positions.exchange(particles);
     for (unsigned int m = 0; m < n_materials; ++m)
       average(material_range(particles, m, dt), /* is_adjoint = */ false, kernel, particles, grid);
-    exchange_positions(particles);
+    positions.exchange(particles);
     for_each_batch(0, particles.size(), [&](const auto batch) {
       using Number   = typename std::decay_t<decltype(batch)>::Number;
       const Number s = exp((batch.load(mean.data()) - batch.load(own.data())) / double(dim));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/particles/kept_positions.h>
 #include <talus/steppers/model.h>
 
 namespace Talus
@@ -20,15 +21,13 @@ namespace Talus
     Musl();
 
     /** Remembers where the particles are, before they move. */
-    void start(const Particles<dim> &particles);
+    void start(const Particles<dim> &particles) { positions.keep(particles); }
 
     /** Sets grad v of particles that have moved in a step from `time`. Collective. */
     void apply(Model<dim> &model, const double time, const double dt);
 
   private:
-    void exchange_positions(Particles<dim> &particles);
-
-    BodyForce<dim>                       no_force;
-    std::array<std::vector<double>, dim> position; // where the particles are not: x^n, and x^{n+1} within apply()
+    BodyForce<dim>     no_force;
+    KeptPositions<dim> positions;
   };
 } // namespace Talus

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/particles/kept_positions.h>
 #include <talus/particles/material_range.h>
 #include <talus/transfer/averaging.h>
 
@@ -57,15 +58,13 @@ namespace Talus
   private:
     void change_stress(Particles<dim> &particles, const double sign, const unsigned int begin,
                        const unsigned int end) const;
-    void exchange_positions(Particles<dim> &particles);
-
     /** Averages `mean` of one material's particles, or does the adjoint of that. */
     void average(const MaterialRange &range, const bool is_adjoint, const Kernel<dim> &kernel,
                  Particles<dim> &particles, const Grid<dim> &grid);
 
-    Averaging<dim>                       averaging;
-    unsigned int                         added_stress = 0; // the field
-    std::vector<double>                  mean, own;
-    std::array<std::vector<double>, dim> position;
+    Averaging<dim>      averaging;
+    unsigned int        added_stress = 0; // the field
+    std::vector<double> mean, own;
+    KeptPositions<dim>  positions;
   };
 } // namespace Talus
