@@ -43,6 +43,35 @@ namespace Talus
       AssertThrow(file.problem.empty(), InputError(where + file.problem));
       return text;
     }
+
+    /** The next line without comment, with those that a backslash joins to it; counts the lines read. */
+    bool read_statement(std::istream &in, std::string &statement, unsigned int &n_read)
+    {
+      std::string line;
+      const auto  read_line = [&] {
+        if (!std::getline(in, line))
+          return false;
+        line = Utilities::trim(line.substr(0, line.find('#')));
+        ++n_read;
+        return true;
+      };
+      if (!read_line())
+        return false;
+      statement = line;
+      while (!statement.empty() && statement.back() == '\\' && read_line())
+      {
+        statement.back() = ' ';
+        statement        = Utilities::trim(statement + line);
+      }
+      return true;
+    }
+
+    /** A file named in another one: relative names begin where that lies. */
+    std::string name_beside(const std::string &file_name, const std::string &name)
+    {
+      const auto slash = file_name.rfind('/');
+      return name.front() == '/' || slash == std::string::npos ? name : file_name.substr(0, slash + 1) + name;
+    }
   } // namespace
 
   Parameters::Parameters(const std::string &file_name, const std::vector<std::string> &overrides) : file_name(file_name)
@@ -97,19 +126,10 @@ namespace Talus
     const std::size_t depth = path.size();
     open_files.push_back(file_name);
     std::vector<std::string> opened_at;
-    std::string              line, next, rest;
-    for (unsigned int number = 1; std::getline(in, line); ++number)
+    std::string              line, rest;
+    for (unsigned int n_read = 0, number = 1; read_statement(in, line, n_read); number = n_read + 1)
     {
       const std::string origin = file_name + ":" + std::to_string(number);
-      const auto        strip = [](const std::string &text) { return Utilities::trim(text.substr(0, text.find('#'))); };
-      line                    = strip(line);
-      while (!line.empty() && line.back() == '\\' && std::getline(in, next))
-      {
-        line.back() = ' ';
-        line        = Utilities::trim(line + strip(next));
-        ++number;
-      }
-
       if (line.empty())
         continue;
       else if (starts_with(line, "subsection", rest))
@@ -135,9 +155,7 @@ namespace Talus
       else if (starts_with(line, "include", rest))
       {
         AssertThrow(!rest.empty(), InputError(origin + ": 'include' needs the name of a file."));
-        const auto        slash = file_name.rfind('/');
-        const std::string included =
-          rest.front() == '/' || slash == std::string::npos ? rest : file_name.substr(0, slash + 1) + rest;
+        const std::string included = name_beside(file_name, rest);
         AssertThrow(std::find(open_files.begin(), open_files.end(), included) == open_files.end(),
                     InputError(origin + ": '" + included + "' includes itself, directly or through another file."));
         std::istringstream file(read(included, origin + ": ", "the included file"));

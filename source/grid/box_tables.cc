@@ -21,6 +21,98 @@ namespace Talus
         index[d] = static_cast<int>(std::floor(lattice.coordinate(x[d], d) + shift));
       return index;
     }
+
+    /** The cells that this rank has, from `first` to before `last`; of a rank without cells none. */
+    template <int dim>
+    void range_of_cells(const DoFHandler<dim> &dof_handler, const Lattice<dim> &lattice,
+                        typename Lattice<dim>::Index &first, typename Lattice<dim>::Index &last)
+    {
+      first.fill(std::numeric_limits<int>::max());
+      last.fill(std::numeric_limits<int>::min());
+      for (const auto &cell : dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+        {
+          const auto index = to_index(lattice, cell->vertex(0), 0.5);
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            first[d] = std::min(first[d], index[d]);
+            last[d]  = std::max(last[d], index[d] + 1);
+          }
+        }
+      if (first[0] > last[0])
+        first.fill(0), last.fill(0);
+    }
+
+    /** Calls body(entry) for the n^dim table entries from `distance` before `entry` on, as far as the tables reach. */
+    template <int dim, class Body>
+    void for_entries_around(const Lattice<dim> &lattice, const int entry, const int distance, const int n,
+                            const Body &body)
+    {
+      auto first = lattice.table_entry(entry);
+      for (unsigned int d = 0; d < dim; ++d)
+        first[d] -= distance;
+      for_each_index(first, n, [&](const auto &index) {
+        if (lattice.is_in_table(index))
+          body(lattice.table_index(index));
+      });
+    }
+
+    /** A cell of this rank and the ranks that have it as a ghost: these learn all that this one knows of what is near.
+     */
+    struct SharedCell
+    {
+      int                    entry;
+      std::set<unsigned int> ranks;
+    };
+
+    template <int dim>
+    std::vector<SharedCell> shared_cells(const Lattice<dim> &lattice, const unsigned int my_rank)
+    {
+      std::vector<SharedCell> shared;
+      for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
+        if (lattice.owner[entry] == my_rank)
+        {
+          std::set<unsigned int> ranks;
+          for_entries_around(lattice, entry, 1, 3, [&](const int at) {
+            if (lattice.owner[at] != lattice.missing && lattice.owner[at] != my_rank)
+              ranks.insert(lattice.owner[at]);
+          });
+          if (!ranks.empty())
+            shared.push_back({static_cast<int>(entry), ranks});
+        }
+      return shared;
+    }
+
+    /**
+     * Tells each rank what this one knows of the n^dim table entries from `distance` before each shared cell on, as
+     * lattice index and number.
+     */
+    template <int dim, class Number>
+    void share(const Lattice<dim> &lattice, const std::vector<SharedCell> &shared, const int distance, const int n,
+               const MPI_Comm communicator, std::vector<Number> &table)
+    {
+      std::map<unsigned int, std::set<int>> entries;
+      for (const SharedCell &cell : shared)
+        for (const unsigned int rank : cell.ranks)
+          for_entries_around(lattice, cell.entry, distance, n, [&](const int at) { entries[rank].insert(at); });
+      std::map<unsigned int, std::vector<types::global_dof_index>> messages;
+      for (const auto &[rank, of_rank] : entries)
+        for (const int entry : of_rank)
+          if (table[entry] + 1 != 0)
+          {
+            const auto index = lattice.table_entry(entry);
+            messages[rank].insert(messages[rank].end(), index.begin(), index.end());
+            messages[rank].push_back(table[entry]);
+          }
+      for (const auto &[rank, message] : Utilities::MPI::some_to_some(communicator, messages))
+        for (unsigned int i = 0; i < message.size(); i += dim + 1)
+        {
+          typename Lattice<dim>::Index index;
+          std::copy_n(message.begin() + i, dim, index.begin());
+          if (lattice.is_in_table(index))
+            table[lattice.table_index(index)] = message[i + dim];
+        }
+    }
   } // namespace
 
   template <int dim>
@@ -33,20 +125,7 @@ namespace Talus
   void BoxGrid<dim>::fill_tables(const unsigned int n_layers)
   {
     typename Lattice<dim>::Index first, last;
-    first.fill(std::numeric_limits<int>::max());
-    last.fill(std::numeric_limits<int>::min());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-      {
-        const auto index = to_index(lattice, cell->vertex(0), 0.5);
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          first[d] = std::min(first[d], index[d]);
-          last[d]  = std::max(last[d], index[d] + 1);
-        }
-      }
-    if (first[0] > last[0]) // a rank without cells
-      first.fill(0), last.fill(0);
+    range_of_cells(dof_handler, lattice, first, last);
     lattice.padding = std::max(3, static_cast<int>(n_layers) + 2);
     lattice.resize_tables(first, last);
 
@@ -100,63 +179,14 @@ namespace Talus
   {
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
-    using Index = typename Lattice<dim>::Index;
-    // Calls body(index) for the entries around a cell, as far as the tables reach.
-    const auto around = [&](const int entry, const int distance, const int n, const auto &body) {
-      Index first = lattice.table_entry(entry);
-      for (unsigned int d = 0; d < dim; ++d)
-        first[d] -= distance;
-      for_each_index(first, n, [&](const Index &index) {
-        if (lattice.is_in_table(index))
-          body(lattice.table_index(index));
-      });
-    };
-
-    // My cells with the ranks that have them as ghosts: these ranks learn all that I know of what is near.
-    std::vector<std::pair<int, std::set<unsigned int>>> shared;
-    for (unsigned int entry = 0; entry < lattice.owner.size(); ++entry)
-      if (owns_cell(entry))
-      {
-        std::set<unsigned int> ranks;
-        around(entry, 1, 3, [&](const int at) {
-          if (lattice.owner[at] != lattice.missing && lattice.owner[at] != my_rank)
-            ranks.insert(lattice.owner[at]);
-        });
-        if (!ranks.empty())
-          shared.emplace_back(entry, ranks);
-      }
-
-    // Tells each rank what this one knows of the cells and nodes `distance` cells away, as lattice index and number.
-    const auto share = [&](const int distance, const int n, auto &table) {
-      std::map<unsigned int, std::set<int>> entries;
-      for (const auto &[cell, ranks] : shared)
-        for (const unsigned int rank : ranks)
-          around(cell, distance, n, [&](const int at) { entries[rank].insert(at); });
-      std::map<unsigned int, std::vector<types::global_dof_index>> messages;
-      for (const auto &[rank, of_rank] : entries)
-        for (const int entry : of_rank)
-          if (table[entry] + 1 != 0)
-          {
-            const Index index = lattice.table_entry(entry);
-            messages[rank].insert(messages[rank].end(), index.begin(), index.end());
-            messages[rank].push_back(table[entry]);
-          }
-      for (const auto &[rank, message] : Utilities::MPI::some_to_some(communicator, messages))
-        for (unsigned int i = 0; i < message.size(); i += dim + 1)
-        {
-          Index index;
-          std::copy_n(message.begin() + i, dim, index.begin());
-          if (lattice.is_in_table(index))
-            table[lattice.table_index(index)] = message[i + dim];
-        }
-    };
+    const auto shared = shared_cells(lattice, my_rank);
     // Who knows what is `layer` cells away from each of its own cells tells its neighbours, who then know one layer
     // more.
     for (int layer = 1; layer < std::max(2, static_cast<int>(n_layers)); ++layer)
     {
-      share(layer, 2 * layer + 1, lattice.owner);
+      share(lattice, shared, layer, 2 * layer + 1, communicator, lattice.owner);
       if (layer < static_cast<int>(n_layers))
-        share(layer, 2 * layer + 2, dofs);
+        share(lattice, shared, layer, 2 * layer + 2, communicator, dofs);
     }
     std::vector<types::global_dof_index> all;
     std::copy_if(dofs.begin(), dofs.end(), std::back_inserter(all),

@@ -84,6 +84,8 @@ namespace Talus
       void collect_faces();
       void check_faces() const;
       void check_hanging_nodes() const;
+      // Beyond a face the cell's coordinate of the opposite vertex is negative; on it all others are not.
+      void check_node_near(const Face &face, const std::array<Vector, dim> &gradient, const unsigned int v) const;
       bool is_against_most(const unsigned int c) const;
 
       const MeshInput<dim> &input;
@@ -192,7 +194,6 @@ namespace Talus
 
       for (const Face *face : outer)
       {
-        // Beyond the face the cell's coordinate of the opposite vertex is negative; on it all others are not.
         const auto       gradient = dual(edges<dim>(input.positions, input.cells[face->cell]));
         const auto      &corners  = input.cells[face->cell];
         const double     margin   = smallest_share * longest_edge(face->cell);
@@ -205,30 +206,36 @@ namespace Talus
           box.upper[d] += margin;
         }
         bins.for_near(box.lower, box.upper, [&](const unsigned int i) {
-          const unsigned int v = nodes[i];
-          if (std::find(corners.begin(), corners.end(), v) != corners.end())
-            return;
-          std::array<double, dim + 1> B;
-          B[0] = 1;
-          for (unsigned int k = 0; k < dim; ++k)
-          {
-            B[k + 1] = 0;
-            for (unsigned int e = 0; e < dim; ++e)
-              B[k + 1] += gradient[k][e] * (input.positions[v][e] - input.positions[corners[0]][e]);
-            B[0] -= B[k + 1];
-          }
-          const auto near_zero = [](const double b) { return std::abs(b) < smallest_share; };
-          if (!near_zero(B[face->opposite]) || *std::min_element(B.begin(), B.end()) < -smallest_share)
-            return;
-          for (unsigned int k = 0; k <= dim; ++k)
-            if (near_zero(1 - B[k]))
-              fail(node(v) + " and " + node(corners[k]) + " lie at the same place, so that the cells around them (" +
-                     cell(face->cell) + ") are not joined",
-                   "Remove duplicate nodes, in gmsh by 'Coherence Mesh'.");
-          fail(node(v) + " hangs on a face of " + cell(face->cell) + ", of which it is no vertex",
-               "Split that cell: meshes must be conforming.");
+          if (std::find(corners.begin(), corners.end(), nodes[i]) == corners.end())
+            check_node_near(*face, gradient, nodes[i]);
         });
       }
+    }
+
+    template <int dim>
+    void MeshCheck<dim>::check_node_near(const Face &face, const std::array<Vector, dim> &gradient,
+                                         const unsigned int v) const
+    {
+      const auto                 &corners = input.cells[face.cell];
+      std::array<double, dim + 1> B;
+      B[0] = 1;
+      for (unsigned int k = 0; k < dim; ++k)
+      {
+        B[k + 1] = 0;
+        for (unsigned int e = 0; e < dim; ++e)
+          B[k + 1] += gradient[k][e] * (input.positions[v][e] - input.positions[corners[0]][e]);
+        B[0] -= B[k + 1];
+      }
+      const auto near_zero = [](const double b) { return std::abs(b) < smallest_share; };
+      if (!near_zero(B[face.opposite]) || *std::min_element(B.begin(), B.end()) < -smallest_share)
+        return;
+      for (unsigned int k = 0; k <= dim; ++k)
+        if (near_zero(1 - B[k]))
+          fail(node(v) + " and " + node(corners[k]) + " lie at the same place, so that the cells around them (" +
+                 cell(face.cell) + ") are not joined",
+               "Remove duplicate nodes, in gmsh by 'Coherence Mesh'.");
+      fail(node(v) + " hangs on a face of " + cell(face.cell) + ", of which it is no vertex",
+           "Split that cell: meshes must be conforming.");
     }
   } // namespace
 

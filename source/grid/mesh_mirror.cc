@@ -28,6 +28,60 @@ namespace Talus
           all |= faces[d];
       return all;
     }
+
+    /** The image of a place in a set of mirrors. */
+    template <int dim>
+    typename Mesh<dim>::Vector image_of(typename Mesh<dim>::Vector                     x,
+                                        const std::vector<typename Mesh<dim>::Mirror> &mirrors, const unsigned int set)
+    {
+      for (unsigned int m = 0; m < mirrors.size(); ++m)
+        if (set >> m & 1)
+          x[mirrors[m].axis] = 2 * mirrors[m].position - x[mirrors[m].axis];
+      return x;
+    }
+
+    /** Nodes by their places, which are the same within `unit`. */
+    template <int dim>
+    class NodesByPlace
+    {
+    public:
+      using Vector = typename Mesh<dim>::Vector;
+
+      explicit NodesByPlace(const double unit) : unit(unit) {}
+
+      void insert(const Vector &x, const unsigned int node) { nodes.emplace(key(x), node); }
+
+      unsigned int find(const Vector &x) const
+      {
+        unsigned int n_keys = 1;
+        for (unsigned int d = 0; d < dim; ++d)
+          n_keys *= 3;
+        for (unsigned int k = 0; k < n_keys; ++k)
+        {
+          Key          near = key(x);
+          unsigned int rest = k;
+          for (unsigned int d = 0; d < dim; ++d, rest /= 3)
+            near[d] += static_cast<long>((rest + 1) % 3) - 1; // no shift first
+          if (const auto found = nodes.find(near); found != nodes.end())
+            return found->second;
+        }
+        return Mesh<dim>::missing;
+      }
+
+    private:
+      using Key = std::array<long, dim>;
+
+      Key key(const Vector &x) const
+      {
+        Key result;
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] = std::lround(x[d] / unit);
+        return result;
+      }
+
+      const double                unit;
+      std::map<Key, unsigned int> nodes;
+    };
   } // namespace
 
   template <int dim>
@@ -44,10 +98,7 @@ namespace Talus
       const auto [entry, is_new] = number.emplace(std::make_pair(v, set), n + images.size());
       if (is_new)
       {
-        Vector x = position[v];
-        for (unsigned int m = 0; m < mirrors.size(); ++m)
-          if (set >> m & 1)
-            x[mirrors[m].axis] = 2 * mirrors[m].position - x[mirrors[m].axis];
+        const Vector x = image_of<dim>(position[v], mirrors, set);
         position.push_back(x);
         images.push_back({v, opposite_faces<dim>(mirrors, set)});
       }
@@ -88,53 +139,24 @@ namespace Talus
     const unsigned int        n    = n_nodes();
     const double              unit = 1e-6 * longest_edge;
     std::vector<unsigned int> beyond(n, 0); // the mirrors beyond which a node lies, as bits
-    using Key      = std::array<long, dim>;
-    const auto key = [unit](const Vector &x) {
-      Key result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = std::lround(x[d] / unit);
-      return result;
-    };
-    std::map<Key, unsigned int> before;
+    NodesByPlace<dim>         before(unit);
     for (unsigned int v = 0; v < n; ++v)
     {
       for (unsigned int m = 0; m < mirrors.size(); ++m)
         if ((mirrors[m].is_upper ? 1 : -1) * (position[v][mirrors[m].axis] - mirrors[m].position) > unit)
           beyond[v] |= 1u << m;
       if (beyond[v] == 0)
-        before.emplace(key(position[v]), v);
+        before.insert(position[v], v);
     }
-    const auto find = [&](const Vector &x) {
-      unsigned int n_keys = 1;
-      for (unsigned int d = 0; d < dim; ++d)
-        n_keys *= 3;
-      for (unsigned int k = 0; k < n_keys; ++k)
-      {
-        Key          near = key(x);
-        unsigned int rest = k;
-        for (unsigned int d = 0; d < dim; ++d, rest /= 3)
-          near[d] += static_cast<long>((rest + 1) % 3) - 1; // no shift first
-        if (const auto found = before.find(near); found != before.end())
-          return found->second;
-      }
-      return missing;
-    };
-
     std::vector<unsigned int> image(n, missing);
     for (unsigned int v = 0; v < n; ++v)
       if (beyond[v] != 0)
-      {
-        Vector x = position[v];
-        for (unsigned int m = 0; m < mirrors.size(); ++m)
-          if (beyond[v] >> m & 1)
-            x[mirrors[m].axis] = 2 * mirrors[m].position - x[mirrors[m].axis];
-        if (const unsigned int real = find(x); real != missing)
+        if (const unsigned int real = before.find(image_of<dim>(position[v], mirrors, beyond[v])); real != missing)
         {
           image[v] = n + images.size();
           position.push_back(position[v]);
           images.push_back({real, opposite_faces<dim>(mirrors, beyond[v])});
         }
-      }
     bool is_complete = true;
     for (unsigned int c = 0; c < n_cells(); ++c)
     {

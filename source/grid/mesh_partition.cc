@@ -64,6 +64,47 @@ namespace Talus
     return part;
   }
 
+  namespace
+  {
+    /** What the root reads, on the others nothing; what is wrong with it all throw. */
+    template <int dim>
+    MeshInput<dim> read_at_root(const std::function<MeshInput<dim>()> &read, const MPI_Comm communicator)
+    {
+      MeshInput<dim> input;
+      std::string    problem;
+      if (Utilities::MPI::this_mpi_process(communicator) == 0)
+        try
+        {
+          input = read();
+        }
+        catch (const InputError &error)
+        {
+          problem = error.message;
+        }
+      problem = Utilities::MPI::broadcast(communicator, problem);
+      AssertThrow(problem.empty(), InputError(problem));
+      return input;
+    }
+
+    template <class Group>
+    std::vector<Group> groups_of_root(const std::vector<Group> &of_root, const MPI_Comm communicator)
+    {
+      std::vector<unsigned int> numbers;
+      std::vector<std::string>  names;
+      for (const auto &group : of_root)
+      {
+        numbers.push_back(group.number);
+        names.push_back(group.name);
+      }
+      numbers = Utilities::MPI::broadcast(communicator, numbers);
+      names   = Utilities::MPI::broadcast(communicator, names);
+      std::vector<Group> groups;
+      for (unsigned int g = 0; g < numbers.size(); ++g)
+        groups.push_back({numbers[g], names[g]});
+      return groups;
+    }
+  } // namespace
+
   template <int dim>
   MeshPartition<dim>::MeshPartition(MPI_Comm communicator) :
     triangulation(communicator), fe(1), dof_handler(triangulation), communicator(communicator)
@@ -73,35 +114,9 @@ namespace Talus
   template <int dim>
   void MeshPartition<dim>::create(const std::function<MeshInput<dim>()> &read, const Weight &weight)
   {
-    const bool         is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    MeshInput<dim>     input;
-    std::string        problem;
-    if (is_root)
-      try
-      {
-        input = read();
-      }
-      catch (const InputError &error)
-      {
-        problem = error.message;
-      }
-    problem = Utilities::MPI::broadcast(communicator, problem);
-    AssertThrow(problem.empty(), InputError(problem));
-
-    std::vector<unsigned int> numbers;
-    std::vector<std::string>  names;
-    for (const auto &group : input.groups)
-    {
-      numbers.push_back(group.number);
-      names.push_back(group.name);
-    }
-    numbers = Utilities::MPI::broadcast(communicator, numbers);
-    names   = Utilities::MPI::broadcast(communicator, names);
-    groups.clear();
-    for (unsigned int g = 0; g < numbers.size(); ++g)
-      groups.push_back({numbers[g], names[g]});
-
+    const unsigned int   n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const MeshInput<dim> input   = read_at_root(read, communicator);
+    groups                       = groups_of_root(input.groups, communicator);
     const auto description =
       TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<dim, dim>(
         [&](Triangulation<dim> &whole) { create_triangulation(input, whole); },

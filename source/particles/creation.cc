@@ -28,6 +28,26 @@ namespace Talus
       });
     }
 
+    /** Numbers the points of all shapes in their order; what each body shall have. */
+    template <int dim>
+    std::vector<Amount> number_points(const Grid<dim> &grid, std::vector<std::unique_ptr<Body<dim>>> &bodies)
+    {
+      std::vector<Amount>     wanted;
+      std::uint64_t           next_id = 0;
+      constexpr std::uint64_t n_ids   = std::numeric_limits<types::particle_index>::max();
+      for (const auto &body : bodies)
+      {
+        wanted.push_back(amount_of_shape(grid, *body));
+        body->first_id = next_id;
+        next_id += body->shape->n_indices();
+        AssertThrow(next_id <= n_ids,
+                    InputError("The bodies have " + std::to_string(next_id) +
+                               " points, more than this deal.II can number (" + std::to_string(n_ids) +
+                               "). Use one with 64-bit indices, or fewer particles."));
+      }
+      return wanted;
+    }
+
     /** The handler's particles were many small pieces, which the C library would keep for later. */
     void return_free_memory()
     {
@@ -67,19 +87,11 @@ namespace Talus
     std::vector<double>        properties(this->n_columns());
     std::vector<std::uint64_t> n_created(bodies.size(), 0);
     std::vector<double>        volume_created(bodies.size(), 0);
-    std::vector<Amount>        wanted;
-    std::uint64_t              next_id      = 0;
-    constexpr std::uint64_t    n_ids        = std::numeric_limits<types::particle_index>::max();
+    const std::vector<Amount>  wanted       = number_points(grid, bodies);
     double                     largest_mass = 0;
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
-      wanted.push_back(amount_of_shape(grid, body));
-      body.first_id = next_id;
-      next_id += body.shape->n_indices();
-      AssertThrow(next_id <= n_ids, InputError("The bodies have " + std::to_string(next_id) +
-                                               " points, more than this deal.II can number (" + std::to_string(n_ids) +
-                                               "). Use one with 64-bit indices, or fewer particles."));
       body_begin.push_back(body.first_id);
       body_material.push_back(body.material);
       for (const auto &cell : grid.triangulation.active_cell_iterators())

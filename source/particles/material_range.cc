@@ -50,11 +50,14 @@ namespace Talus
   }
 
   template <int dim>
-  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt)
+  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt, const bool is_plain)
   {
     std::vector<MaterialRange> ranges;
     for (unsigned int m = 0; m < particles.state_fields.size(); ++m)
+    {
       ranges.push_back(material_range(particles, m, dt));
+      ranges.back().is_plain = is_plain;
+    }
     return ranges;
   }
 
@@ -62,7 +65,7 @@ namespace Talus
   template void                       add_seen_gradient(WorkingSet<dim> &);                                            \
   template unsigned int               seen_gradient(const WorkingSet<dim> &);                                          \
   template MaterialRange              material_range(WorkingSet<dim> &, const unsigned int, const double);             \
-  template std::vector<MaterialRange> material_ranges(WorkingSet<dim> &, const double);
+  template std::vector<MaterialRange> material_ranges(WorkingSet<dim> &, const double, const bool);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

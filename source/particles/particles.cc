@@ -38,6 +38,36 @@ namespace Talus
         keys.swap(sorted);
       }
     }
+
+    /** A particle in a message is its id and its columns, and its place where it keeps that. */
+    template <int dim>
+    unsigned int message_size(const WorkingSet<dim> &particles)
+    {
+      return 1 + particles.n_columns() + particles.keeps_places;
+    }
+
+    /** What leaves, by the rank to which it goes. */
+    template <int dim>
+    std::map<unsigned int, std::vector<double>> pack(const WorkingSet<dim>     &particles,
+                                                     const std::vector<Leaver> &leavers)
+    {
+      std::map<unsigned int, std::vector<double>> messages;
+      for (const Leaver &leaver : leavers)
+      {
+        const unsigned int p = leaver.particle;
+        AssertThrow(leaver.rank != numbers::invalid_unsigned_int,
+                    RunError("Particle " + std::to_string(particles.id[p]) + " at " +
+                             to_text(particles.vector(particles.position, p)) +
+                             " was lost between ranks: no cell holds it. Lower the Courant number."));
+        auto &message = messages[leaver.rank];
+        message.push_back(particles.id[p]);
+        for (unsigned int c = 0; c < particles.n_columns(); ++c)
+          message.push_back(particles.column(c)[p]);
+        if (particles.keeps_places)
+          message.push_back(leaver.place);
+      }
+      return messages;
+    }
   } // namespace
 
   template <int dim>
@@ -109,23 +139,8 @@ namespace Talus
     const auto leavers =
       grid->leavers(std::as_const(*this).template components<dim>(this->position), this->place.data(), this->size());
 
-    // A particle is its id and its columns, and its place where it keeps that.
-    const unsigned int                          n = 1 + this->n_columns() + this->keeps_places;
-    std::map<unsigned int, std::vector<double>> messages;
-    for (const Leaver &leaver : leavers)
-    {
-      const unsigned int p = leaver.particle;
-      AssertThrow(leaver.rank != none,
-                  RunError("Particle " + std::to_string(this->id[p]) + " at " +
-                           to_text(this->vector(this->position, p)) +
-                           " was lost between ranks: no cell holds it. Lower the Courant number."));
-      auto &message = messages[leaver.rank];
-      message.push_back(this->id[p]);
-      for (unsigned int c = 0; c < this->n_columns(); ++c)
-        message.push_back(this->column(c)[p]);
-      if (this->keeps_places)
-        message.push_back(leaver.place);
-    }
+    const unsigned int n        = message_size(*this);
+    const auto         messages = pack(*this, leavers);
     for (const auto &[rank, message] : messages)
       grid->communicator.sent(message.size() * sizeof(double));
     std::vector<const double *> arrivals;

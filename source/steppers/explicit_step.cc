@@ -169,9 +169,7 @@ namespace Talus
   Report Explicit<dim>::move_particles(Model<dim> &model, const double time, const double dt)
   {
     Particles<dim> &particles = model.particles;
-    auto            ranges    = material_ranges(particles, dt);
-    for (auto &range : ranges)
-      range.is_plain = model.transfer->is_plain;
+    const auto      ranges    = material_ranges(particles, dt, model.transfer->is_plain);
     watch->start(ranges, time + dt, dt);
     particles.start_relocation();
     model.f_bar.start(particles);

@@ -20,9 +20,9 @@ namespace Talus
   template <int dim>
   MaterialRange material_range(WorkingSet<dim> &particles, const unsigned int m, const double dt);
 
-  /** The same for all materials. */
+  /** The same for all materials; `is_plain`: see MaterialRange. */
   template <int dim>
-  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt);
+  std::vector<MaterialRange> material_ranges(WorkingSet<dim> &particles, const double dt, const bool is_plain = false);
 
   /** The particles of a range that lie in [begin, end). */
   inline MaterialRange intersection(MaterialRange range, const unsigned int begin, const unsigned int end)

@@ -101,6 +101,67 @@ namespace Talus
         sum += row[e + 1] * d[e];
       return sum;
     }
+
+    template <int dim, class Lanes>
+    [[gnu::always_inline]] inline void scaled_offset(const typename Stencil<dim>::Arrays &to, const unsigned int k,
+                                                     const double inverse_s, Lanes (&d)[dim])
+    {
+      for (unsigned int e = 0; e < dim; ++e)
+        d[e] = inverse_s * Lanes::load(to.offset[e] + k);
+    }
+
+    /** Of a list with grad w: sum (a . p_u) p_u grad w_u^T by rows, each the sums of a register's lanes. */
+    template <int dim>
+    [[gnu::always_inline]] inline void gradient_moments(const InverseMoments<dim> &inverse, const unsigned int l,
+                                                        const double inverse_s, const typename Stencil<dim>::Arrays &to,
+                                                        const unsigned int size,
+                                                        Simd<mesh_width> (&rows)[(dim + 1) * dim])
+    {
+      using Lanes = Simd<mesh_width>;
+      Lanes a[dim + 1], d[dim];
+      for (auto &row : rows)
+        row = 0.;
+      for (unsigned int i = 0; i <= dim; ++i)
+        a[i] = inverse(0, i, l);
+      for (unsigned int k = 0; k < size; k += mesh_width)
+      {
+        scaled_offset<dim>(to, k, inverse_s, d);
+        const Lanes correction = dot<dim>(a, d);
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          const Lanes term = correction * Lanes::load(to.gradient[e] + k);
+          rows[e] += term;
+          for (unsigned int i = 0; i < dim; ++i)
+            rows[(i + 1) * dim + e] += d[i] * term;
+        }
+      }
+    }
+
+    /** Makes w and grad w of a list phi and grad phi; `row` is the factor of p in g_v - w_v Q^T p_v. */
+    template <int dim>
+    [[gnu::always_inline]] inline void true_gradients(const InverseMoments<dim> &inverse,
+                                                      const double (&row)[dim][dim + 1][mesh_width],
+                                                      const unsigned int l, const double inverse_s,
+                                                      const typename Stencil<dim>::Arrays &to, const unsigned int size)
+    {
+      using Lanes = Simd<mesh_width>;
+      Lanes a[dim + 1], of_gradient[dim][dim + 1], d[dim];
+      for (unsigned int i = 0; i <= dim; ++i)
+      {
+        a[i] = inverse(0, i, l);
+        for (unsigned int e = 0; e < dim; ++e)
+          of_gradient[e][i] = row[e][i][l];
+      }
+      for (unsigned int k = 0; k < size; k += mesh_width)
+      {
+        scaled_offset<dim>(to, k, inverse_s, d);
+        const Lanes weight = Lanes::load(to.weight + k), correction = dot<dim>(a, d);
+        for (unsigned int e = 0; e < dim; ++e)
+          (weight * dot<dim>(of_gradient[e], d) + correction * Lanes::load(to.gradient[e] + k))
+            .store(to.gradient[e] + k);
+        (weight * correction).store(to.weight + k);
+      }
+    }
   } // namespace internal
 
   template <class Weight, int dim>
@@ -111,10 +172,6 @@ namespace Talus
     const internal::C1Points<dim>            at(mesh, feet, n, points, options);
     SumsOfParticles<MomentSums<dim>::n_sums> moments;
     typename Stencil<dim>::Arrays            to[mesh_width];
-    const auto scaled_offset = [&](const unsigned int l, const unsigned int k, Lanes(&d)[dim]) {
-      for (unsigned int e = 0; e < dim; ++e)
-        d[e] = at.inverse_s[l] * Lanes::load(to[l].offset[e] + k);
-    };
     // Until the last loop the lists hold w and grad w.
     for (unsigned int l = 0; l < n; ++l)
     {
@@ -141,27 +198,11 @@ namespace Talus
     moments.fill(n);
     const InverseMoments<dim> inverse(moments);
 
-    // Q, before M^-1.
-    SumsOfParticles<(dim + 1) * dim> Q;
+    SumsOfParticles<(dim + 1) * dim> Q; // before M^-1
     for (unsigned int l = 0; l < n; ++l)
     {
-      Lanes rows[(dim + 1) * dim], a[dim + 1], d[dim];
-      for (auto &row : rows)
-        row = 0.;
-      for (unsigned int i = 0; i <= dim; ++i)
-        a[i] = inverse(0, i, l);
-      for (unsigned int k = 0; k < lists[l].size; k += mesh_width)
-      {
-        scaled_offset(l, k, d);
-        const Lanes correction = internal::dot<dim>(a, d);
-        for (unsigned int e = 0; e < dim; ++e)
-        {
-          const Lanes term = correction * Lanes::load(to[l].gradient[e] + k);
-          rows[e] += term;
-          for (unsigned int i = 0; i < dim; ++i)
-            rows[(i + 1) * dim + e] += d[i] * term;
-        }
-      }
+      Lanes rows[(dim + 1) * dim];
+      internal::gradient_moments<dim>(inverse, l, at.inverse_s[l], to[l], lists[l].size, rows);
       Q.set(l, rows);
     }
     Q.fill(n);
@@ -177,23 +218,6 @@ namespace Talus
       }
 
     for (unsigned int l = 0; l < n; ++l)
-    {
-      Lanes a[dim + 1], of_gradient[dim][dim + 1], d[dim];
-      for (unsigned int i = 0; i <= dim; ++i)
-      {
-        a[i] = inverse(0, i, l);
-        for (unsigned int e = 0; e < dim; ++e)
-          of_gradient[e][i] = row[e][i][l];
-      }
-      for (unsigned int k = 0; k < lists[l].size; k += mesh_width)
-      {
-        scaled_offset(l, k, d);
-        const Lanes weight = Lanes::load(to[l].weight + k), correction = internal::dot<dim>(a, d);
-        for (unsigned int e = 0; e < dim; ++e)
-          (weight * internal::dot<dim>(of_gradient[e], d) + correction * Lanes::load(to[l].gradient[e] + k))
-            .store(to[l].gradient[e] + k);
-        (weight * correction).store(to[l].weight + k);
-      }
-    }
+      internal::true_gradients<dim>(inverse, row, l, at.inverse_s[l], to[l], lists[l].size);
   }
 } // namespace Talus

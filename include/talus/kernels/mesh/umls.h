@@ -145,6 +145,37 @@ namespace Talus
     std::array<double, dim> x;
   };
 
+  /** Of a point's list with weights w: [phi, g] = w (first column of M^-1 + the others . d), d = offset / s. */
+  template <int dim>
+  [[gnu::always_inline]] inline void solve_weights(const InverseMoments<dim> &inverse, const unsigned int l,
+                                                   const double inverse_s, const typename Stencil<dim>::Arrays &to,
+                                                   const unsigned int size)
+  {
+    using Lanes = Simd<mesh_width>;
+    Lanes first[dim + 1], other[dim + 1][dim];
+    for (unsigned int i = 0; i <= dim; ++i)
+    {
+      const double scale = i == 0 ? 1. : inverse_s;
+      first[i]           = scale * inverse(i, 0, l);
+      for (unsigned int e = 0; e < dim; ++e)
+        other[i][e] = scale * inverse_s * inverse(i, e + 1, l);
+    }
+    for (unsigned int k = 0; k < size; k += mesh_width)
+    {
+      const Lanes weight = Lanes::load(to.weight + k);
+      Lanes       offset[dim];
+      for (unsigned int e = 0; e < dim; ++e)
+        offset[e] = Lanes::load(to.offset[e] + k);
+      for (unsigned int i = 0; i <= dim; ++i)
+      {
+        Lanes sum = first[i];
+        for (unsigned int e = 0; e < dim; ++e)
+          sum += other[i][e] * offset[e];
+        (weight * sum).store((i == 0 ? to.weight : to.gradient[i - 1]) + k);
+      }
+    }
+  }
+
   /**
    * Unstructured moving least squares (Cao et al.) at up to mesh_width points: with d_v = (x_v - x)/s, p_v = [1, d_v],
    * @f[ w_v = b(|d_v|)\,\gamma_v , \quad \gamma_v = \sum_{u \in K} A_{uv} B_u , \quad
@@ -193,30 +224,6 @@ namespace Talus
     sums.fill(n);
     const InverseMoments<dim> inverse(sums);
     for (unsigned int l = 0; l < n; ++l)
-    {
-      // [phi, g] = w (first column + the others . d), d = offset/s.
-      Lanes first[dim + 1], other[dim + 1][dim];
-      for (unsigned int i = 0; i <= dim; ++i)
-      {
-        const double scale = i == 0 ? 1. : inverse_s[l];
-        first[i]           = scale * inverse(i, 0, l);
-        for (unsigned int e = 0; e < dim; ++e)
-          other[i][e] = scale * inverse_s[l] * inverse(i, e + 1, l);
-      }
-      for (unsigned int k = 0; k < lists[l].size; k += mesh_width)
-      {
-        const Lanes weight = Lanes::load(to[l].weight + k);
-        Lanes       offset[dim];
-        for (unsigned int e = 0; e < dim; ++e)
-          offset[e] = Lanes::load(to[l].offset[e] + k);
-        for (unsigned int i = 0; i <= dim; ++i)
-        {
-          Lanes sum = first[i];
-          for (unsigned int e = 0; e < dim; ++e)
-            sum += other[i][e] * offset[e];
-          (weight * sum).store((i == 0 ? to[l].weight : to[l].gradient[i - 1]) + k);
-        }
-      }
-    }
+      solve_weights<dim>(inverse, l, inverse_s[l], to[l], lists[l].size);
   }
 } // namespace Talus
