@@ -18,7 +18,7 @@ import tempfile
 
 import numpy as np
 import runs
-from fingerprint_cases import CONDITIONS, KERNELS, MATERIALS, TRANSFERS, TREATMENTS, all_cases
+from fingerprint_cases import ALL_CONDITIONS, ALL_KERNELS, ALL_MATERIALS, ALL_TRANSFERS, TREATMENTS, all_cases
 
 sys.path.insert(0, str(runs.ROOT / "tests" / "compare"))
 import compare  # noqa: E402
@@ -147,8 +147,9 @@ def describe(case, state, other, bound):
 
 def warn_of_gaps(build):
     """Says what is registered and in no case."""
-    covered = {"kernel": KERNELS.values(), "boundary treatment": TREATMENTS.values(), "transfer": TRANSFERS.values(),
-               "material": [entries["Type"] for entries in MATERIALS.values()], "condition": CONDITIONS}
+    covered = {"kernel": ALL_KERNELS.values(), "boundary treatment": TREATMENTS.values(),
+               "transfer": ALL_TRANSFERS.values(), "material": [entries["Type"] for entries in ALL_MATERIALS.values()],
+               "condition": ALL_CONDITIONS}
     for kind, name in build.names():
         if kind in covered and name not in covered[kind]:
             print(f"Warning: no case has the {kind} '{name}'; see contrib/lib/fingerprint_cases.py.", file=sys.stderr)

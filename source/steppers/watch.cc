@@ -53,11 +53,11 @@ namespace Talus
     stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
     mass   = particles.component(particles.mass, 0);
 
-    b            = model.acceleration.uniform_value(time);
-    signal_speed = total_mass = kinetic_energy = 0.;
-    momentum                                   = Tensor<1, dim, Number>();
-    body_force_power                           = 0;
-    failed                                     = Particles<dim>::none;
+    b                 = model.acceleration.uniform_value(time);
+    sums.signal_speed = sums.mass = sums.kinetic_energy = 0.;
+    sums.momentum                                       = Tensor<1, dim, Number>();
+    body_force_power                                    = 0;
+    failed                                              = Particles<dim>::none;
   }
 
   template <int dim>
@@ -71,7 +71,7 @@ namespace Talus
         continue;
       model.materials[m]->wave_speeds(range, speeds.data() + (range.begin - begin));
       const double largest = model.materials[m]->largest_volume_ratio();
-      for_each_batch(range.begin, range.end, [&](const auto batch) { look_at(batch, speeds.data() - begin, largest); });
+      add_up(range.begin, range.end, speeds.data() - begin, largest);
     }
 
     if (model.acceleration.depends_on_space())
@@ -84,17 +84,38 @@ namespace Talus
   }
 
   template <int dim>
-  template <class Batch>
-  void Watch<dim>::look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio)
+  void Watch<dim>::add_up(const unsigned int begin, const unsigned int end, const double *speeds,
+                          const double largest_volume_ratio)
   {
-    const auto   v_p = load_vector<dim>(batch, v);
-    const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
-    signal_speed = max(signal_speed, batch.load(speeds) + sqrt(squares));
-    total_mass += counted_mass;
-    kinetic_energy += 0.5 * counted_mass * squares;
-    momentum += counted_mass * v_p;
+    Sums here      = sums; // in registers
+    auto is_broken = Number(1.) < Number(0.);
+    for_each_batch(begin, end, [&](const auto batch) {
+      const auto   v_p = load_vector<dim>(batch, v);
+      const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
+      here.signal_speed = max(here.signal_speed, batch.load(speeds) + sqrt(squares));
+      here.mass += counted_mass;
+      here.kinetic_energy += 0.5 * counted_mass * squares;
+      here.momentum += counted_mass * v_p;
+      is_broken = is_broken | !limits(batch, squares, largest_volume_ratio).are_kept();
+    });
+    sums = here;
+    if (any(is_broken))
+      for_each_batch(begin, end, [&](const auto batch) {
+        const Limits kept = limits(batch, load_vector<dim>(batch, v).norm_square(), largest_volume_ratio);
+        for (unsigned int l = 0; l < batch.size(); ++l)
+          if (!kept.are_kept()[l])
+            note(batch.p + l, !kept.is_finite[l] ? Limit::finite :
+                              !kept.is_open[l]   ? Limit::volume_ratio :
+                                                   Limit::increment);
+      });
+  }
 
-    Number magnitude = squares, increment = 0.;
+  template <int dim>
+  template <class Batch>
+  typename Watch<dim>::Limits Watch<dim>::limits(const Batch &batch, const Number &square_of_velocity,
+                                                 const double largest_volume_ratio) const
+  {
+    Number magnitude = square_of_velocity, increment = 0.;
     for (const double *column : stress)
       magnitude += abs(batch.load(column));
     for (const double *column : grad_v)
@@ -104,14 +125,9 @@ namespace Talus
     }
     const Number J = determinant(load_matrix<dim>(batch, F));
     // Comparisons are written so that NaN fails them.
-    const auto is_finite = magnitude <= Number(std::numeric_limits<double>::max());
-    const auto is_open   = (J > Number(0.)) & (J <= Number(largest_volume_ratio));
-    const auto is_slow   = dt * dt * increment <= Number(largest_increment * largest_increment);
-    const auto is_broken = !(is_finite & is_open & is_slow);
-    if (any(is_broken))
-      for (unsigned int l = 0; l < batch.size(); ++l)
-        if (is_broken[l])
-          note(batch.p + l, !is_finite[l] ? Limit::finite : !is_open[l] ? Limit::volume_ratio : Limit::increment);
+    return {magnitude <= Number(std::numeric_limits<double>::max()),
+            (J > Number(0.)) & (J <= Number(largest_volume_ratio)),
+            dt * dt * increment <= Number(largest_increment * largest_increment)};
   }
 
   template <int dim>
@@ -132,19 +148,19 @@ namespace Talus
       note(particles.outside, Limit::grid);
 
     Report report;
-    report.signal_speed     = greatest(signal_speed);
+    report.signal_speed     = greatest(sums.signal_speed);
     report.displacement     = displacement;
     report.most_particles   = particles.size();
     report.needs_migration  = particles.needs_synchronise;
     report.needs_activation = particles.needs_activation;
     report.has_failed       = failed != particles.none;
-    report.mass             = sum(total_mass);
-    report.kinetic_energy   = sum(kinetic_energy);
+    report.mass             = sum(sums.mass);
+    report.kinetic_energy   = sum(sums.kinetic_energy);
     if (model.acceleration.depends_on_space())
       report.body_force_power = body_force_power;
     else
       for (unsigned int d = 0; d < dim; ++d)
-        report.body_force_power += b[d] * sum(momentum[d]);
+        report.body_force_power += b[d] * sum(sums.momentum[d]);
 
     // One message for all global numbers of a step.
     Reduction reduction;

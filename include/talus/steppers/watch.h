@@ -38,8 +38,28 @@ namespace Talus
       grid
     };
 
+    /** What is added up of all particles, one in each lane. */
+    struct Sums
+    {
+      Number                         signal_speed, mass, kinetic_energy; // the greatest; sums
+      dealii::Tensor<1, dim, Number> momentum;
+    };
+
+    /** Which limits the particles of a batch keep to, but for the grid. */
+    struct Limits
+    {
+      typename Number::Mask is_finite, is_open, is_slow;
+
+      typename Number::Mask are_kept() const { return is_finite & is_open & is_slow; }
+    };
+
+    /** Particles begin .. end - 1, of one material. */
+    void add_up(const unsigned int begin, const unsigned int end, const double *speeds,
+                const double largest_volume_ratio);
+
     template <class Batch>
-    void look_at(const Batch &batch, const double *speeds, const double largest_volume_ratio);
+    [[gnu::always_inline]] Limits limits(const Batch &batch, const Number &square_of_velocity,
+                                         const double largest_volume_ratio) const;
 
     /** Notes that particle p broke a limit, if no particle of lower number has broken one. */
     void note(const unsigned int p, const Limit limit);
@@ -58,11 +78,10 @@ namespace Talus
     std::array<const double *, WorkingSet<dim>::n_stress> stress;
     const double                                         *mass;
 
-    dealii::Tensor<1, dim>         b; // body force per mass, where it is uniform
-    std::vector<double>            speeds;
-    Number                         signal_speed, total_mass, kinetic_energy;
-    dealii::Tensor<1, dim, Number> momentum;
-    double                         body_force_power = 0;
+    dealii::Tensor<1, dim> b; // body force per mass, where it is uniform
+    std::vector<double>    speeds;
+    Sums                   sums;
+    double                 body_force_power = 0;
 
     unsigned int failed = Particles<dim>::none; // the particle of lowest number that broke a limit
     Limit        broken = Limit::finite;
