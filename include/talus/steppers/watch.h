@@ -58,8 +58,8 @@ namespace Talus
                 const double largest_volume_ratio);
 
     template <class Batch>
-    [[gnu::always_inline]] Limits limits(const Batch &batch, const Number &square_of_velocity,
-                                         const double largest_volume_ratio) const;
+    [[gnu::always_inline]] inline Limits limits(const Batch &batch, const Number &square_of_velocity,
+                                                const double largest_volume_ratio) const;
 
     /** Notes that particle p broke a limit, if no particle of lower number has broken one. */
     void note(const unsigned int p, const Limit limit);

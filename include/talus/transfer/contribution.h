@@ -22,15 +22,15 @@ namespace Talus
 
     Node constant[native_width], linear[dim][native_width];
 
-    /** C is the affine field, b the body force per mass. */
-    template <class Batch>
-    [[gnu::always_inline]] void set(const TransferArrays<dim> &arrays, const Batch &batch,
-                                    const dealii::Tensor<2, dim, Number> &C, const dealii::Tensor<1, dim, Number> &b)
+    /** `affine()` is the affine field C, b the body force per mass. */
+    template <class Batch, class Affine>
+    [[gnu::always_inline]] void set(const TransferArrays<dim> &arrays, const Batch &batch, const Affine &affine,
+                                    const dealii::Tensor<1, dim, Number> &b)
     {
       // Each number is read where it is needed: there are not registers for all of them.
       add_up(
         batch.load(arrays.mass), batch.load(arrays.volume),
-        [&](const unsigned int d) { return batch.load(arrays.velocity[d]); }, b, C,
+        [&](const unsigned int d) { return batch.load(arrays.velocity[d]); }, b, affine,
         // xy, xz, yz follow the three diagonal components.
         [&](const unsigned int d, const unsigned int e) { return batch.load(arrays.stress[d == e ? d : 2 + d + e]); });
     }
@@ -41,7 +41,7 @@ namespace Talus
                                     const dealii::Tensor<2, dim, Number> &stress)
     {
       add_up(
-        m, V, [&](const unsigned int d) { return v[d]; }, b, C,
+        m, V, [&](const unsigned int d) { return v[d]; }, b, [&]() -> const auto & { return C; },
         [&](const unsigned int d, const unsigned int e) { return stress[d][e]; });
     }
 
@@ -63,9 +63,9 @@ namespace Talus
     }
 
   private:
-    template <class Velocity, class Stress>
+    template <class Velocity, class Affine, class Stress>
     [[gnu::always_inline]] void add_up(const Number &m, const Number &V, const Velocity &v,
-                                       const dealii::Tensor<1, dim, Number> &b, const dealii::Tensor<2, dim, Number> &C,
+                                       const dealii::Tensor<1, dim, Number> &b, const Affine &affine,
                                        const Stress &stress)
     {
       Number rows[8]     = {0., 0., 0., 0., 0., 0., 0., 0.};
@@ -76,6 +76,7 @@ namespace Talus
         rows[Fields::force + d]    = m * b[d]; // Eq. (12)
       }
       lanes_to_vectors<native_width>(rows, constant);
+      const dealii::Tensor<2, dim, Number> C = affine();
       for (unsigned int e = 0; e < dim; ++e)
       {
         rows[Fields::mass] = 0.;

@@ -43,7 +43,8 @@ namespace Talus
                 C[c / dim][c % dim].set(l, C_p[c / dim][c % dim]);
             }
         }
-        add.set(arrays, batch, C, body_force(batch));
+        add.set(
+          arrays, batch, [&]() -> const auto & { return C; }, body_force(batch));
         for (unsigned int l = 0; l < batch.size(); ++l)
           scatter(add, l, stencils[l], fields);
       });

@@ -29,17 +29,20 @@ namespace Talus
                                         const LatticeBatch<dim, n> &stencil, const VectorNumber &b,
                                         const Lattice<dim> &lattice)
     {
-      dealii::Tensor<2, dim, Number> C;
-      if constexpr (is_affine)
-      {
-        if (!stencil.is_at_face)
-          C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
-        else
-          C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
-      }
-      if (is_affine && stencil.is_at_face && scheme.projects_slip)
-        C = without_wall_shear(C, stencil.is_at_slip_wall);
-      vectors.set(arrays, batch, C, b);
+      const auto affine = [&] {
+        dealii::Tensor<2, dim, Number> C;
+        if constexpr (is_affine)
+        {
+          if (!stencil.is_at_face)
+            C = scheme.affine(arrays, batch, diagonal_second_moment(stencil, lattice.h), lattice.largest_spacing());
+          else
+            C = scheme.affine(arrays, batch, second_moment(stencil), lattice.largest_spacing());
+          if (stencil.is_at_face && scheme.projects_slip)
+            C = without_wall_shear(C, stencil.is_at_slip_wall);
+        }
+        return C;
+      };
+      vectors.set(arrays, batch, affine, b);
     }
 
     /** Adds those of the first `size` particles to the nodes. */
