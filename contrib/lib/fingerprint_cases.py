@@ -15,7 +15,10 @@ MATERIALS = {"elastic": {"Type": "linear elastic"}, "neo": {"Type": "neo-Hookean
                        "Residual yield stress": 500, "Softening rate": 5},
              "dp": {"Type": "Drucker-Prager", "Friction angle": 30, "Dilatancy angle": 10, "Cohesion": 300},
              "fluid": {"Type": "Newtonian fluid", "Sound speed": 40, "Viscosity": 5}}
-ALL_MATERIALS = {**MATERIALS, "hooke": {"Type": "Hooke"},
+ALL_MATERIALS = {**MATERIALS,
+                 "mc": {"Type": "Mohr-Coulomb", "Friction angle": 30, "Dilatancy angle": 10, "Cohesion": 300,
+                        "Residual cohesion": 100, "Tension strength": 200},
+                 "hooke": {"Type": "Hooke"},
                  "hencky": {"Type": "Hencky", "Yield stress": 2000, "Hardening": "exponential softening",
                             "Residual yield stress": 500, "Softening rate": 5}}
 CONDITIONS = {"slip": "smooth", "friction": "rough", "no-slip": "fixed", "velocity": "driven"}  # their names in the files
@@ -25,7 +28,8 @@ ALL_CONDITIONS = [*CONDITIONS, "symmetry"]
 # What every particle has, and what some transfers and materials add to it.
 FIELDS = ["position", "velocity", "velocity gradient", "deformation gradient", "stress", "mass", "volume",
           "initial position"]
-STATES = {"mises": ["equivalent plastic strain"], "hencky": ["equivalent plastic strain"], "dp": ["equivalent plastic strain", "volumetric plastic strain"]}
+STATES = {"mc": ["equivalent plastic strain", "volumetric plastic strain"],
+          "mises": ["equivalent plastic strain"], "hencky": ["equivalent plastic strain"], "dp": ["equivalent plastic strain", "volumetric plastic strain"]}
 
 # Which kind of wall stands at which faces: in two dimensions each face has each kind once, the last of them are a box of
 # slip walls, with edges and corners, where the first body lies.
@@ -187,6 +191,7 @@ def lists(makes):
                       more={"Kernel/Layers": 1} if kernel in DOMAIN_KERNELS else None)
     for dim in (2, 3):
         makes.add(dim, "quadratic", "ghost", "apic", materials=("hencky", "hooke"), word="strains")
+        makes.add(dim, "quadratic", "ghost", "tpic", materials=("mc", "elastic"), word="pyramid", ranks=dim - 1)
         makes.add(dim, "umls", "", "tpic", materials=("hencky", "hencky"), word="f-bar", more={"Run/F-bar": "true"})
         makes.add(dim, "quadratic", "ghost", "tpic", materials=("hencky", "neo"), word="f-bar", ranks=2,
                   more={"Run/F-bar": "true"})

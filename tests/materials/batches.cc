@@ -90,6 +90,9 @@ void batches()
     {{"sand", "Drucker-Prager",
       elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1")}},
     {{"dry sand", "Drucker-Prager", elastic + set("Friction angle", "35") + set("Dilatancy angle", "10")}},
+    {{"Mohr-Coulomb", "Mohr-Coulomb",
+      elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1") +
+        set("Tension strength", "0.3") + set("Residual cohesion", "0.5")}},
     {{"fluid", "Newtonian fluid", set("Density", "1")}}};
   for (const auto &[name, type, entries] : laws)
     for (const unsigned int dim : {2, 3})

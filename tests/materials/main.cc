@@ -59,6 +59,21 @@ namespace drucker_prager
   void parameter_errors();
 } // namespace drucker_prager
 
+namespace mohr_coulomb
+{
+  void uniaxial_compression();
+  void uniaxial_extension();
+  void pure_shear();
+  void returns();
+  void tension();
+  void no_friction();
+  void biaxial_test();
+  void softening();
+  void dissipation();
+  void plane_strain();
+  void parameter_errors();
+} // namespace mohr_coulomb
+
 namespace gap
 {
   void uniaxial_strain();
@@ -131,6 +146,17 @@ int main(int argc, char **argv)
                     {"Drucker-Prager: biaxial test", drucker_prager::biaxial_test},
                     {"Drucker-Prager: plane strain", drucker_prager::plane_strain},
                     {"Drucker-Prager: parameter errors", drucker_prager::parameter_errors},
+                    {"Mohr-Coulomb: uniaxial compression", mohr_coulomb::uniaxial_compression},
+                    {"Mohr-Coulomb: uniaxial extension", mohr_coulomb::uniaxial_extension},
+                    {"Mohr-Coulomb: pure shear", mohr_coulomb::pure_shear},
+                    {"Mohr-Coulomb: returns", mohr_coulomb::returns},
+                    {"Mohr-Coulomb: tension", mohr_coulomb::tension},
+                    {"Mohr-Coulomb: no friction", mohr_coulomb::no_friction},
+                    {"Mohr-Coulomb: biaxial test", mohr_coulomb::biaxial_test},
+                    {"Mohr-Coulomb: softening", mohr_coulomb::softening},
+                    {"Mohr-Coulomb: dissipation", mohr_coulomb::dissipation},
+                    {"Mohr-Coulomb: plane strain", mohr_coulomb::plane_strain},
+                    {"Mohr-Coulomb: parameter errors", mohr_coulomb::parameter_errors},
                     {"gap: uniaxial strain", gap::uniaxial_strain},
                     {"gap: with cohesion", gap::cohesive},
                     {"gap: dilation", gap::dilation},

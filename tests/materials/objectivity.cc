@@ -27,6 +27,8 @@ namespace
        elastic + set("Yield stress", "3") + set("Hardening", "exponential softening") + set("Softening rate", "2"),
        true},
       {"sand", "Drucker-Prager",
+       elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1"), true},
+      {"Mohr-Coulomb", "Mohr-Coulomb",
        elastic + set("Friction angle", "35") + set("Dilatancy angle", "10") + set("Cohesion", "1"), true}};
   }
 
@@ -118,7 +120,7 @@ namespace objectivity
         L[b][a] = numbers::PI / 2, L[a][b] = -L[b][a];
         start[a][a] = -1, half[a][a] = half[b][b] = half[a][b] = half[b][a] = -0.5, end[b][b] = -1;
         // Stretched beyond its strength where it has one; then only the deviator is scaled back.
-        p.set_stress((law.name == "sand" ? 100. : 3.001) * start);
+        p.set_stress((law.name == "sand" || law.type == "Mohr-Coulomb" ? 100. : 3.001) * start);
         p.advance(Tensor<2, 3>(), 0.);
         const Tensor<2, 3> first = p.stress(), Q = rotation(a, b, numbers::PI / 2), H = rotation(a, b, numbers::PI / 4);
         const std::string  name = law.name + ", axis " + std::to_string(a);
