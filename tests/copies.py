@@ -13,6 +13,7 @@ class Copies:
     def __init__(self, talus, server=os.environ.get("TALUS_FORK_SERVER_LIBRARY", "")):
         """Without a server each run is a process of its own."""
         self.talus, self.process, self.directory = talus, None, tempfile.mkdtemp()
+        self.seconds = 0  # of the processor, in copies
         atexit.register(shutil.rmtree, self.directory, True)
         # Each rank for itself, which needs no daemon, with its own place for what MPI keeps in files.
         self.environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1", OMPI_MCA_pml="ob1",
@@ -38,7 +39,9 @@ class Copies:
             self.process.stdin.flush()
             pid = int(self.process.stdout.readline())
             is_over = self.wait(pid, lambda: select.select([self.process.stdout], [], [], 0.1)[0], seconds, by_clock)
-            ended = int(self.process.stdout.readline().split()[0])
+            ended, spent = self.process.stdout.readline().split()
+            ended = int(ended)
+            self.seconds += float(spent)
             status = None if not is_over else -(ended & 127) if ended & 127 else ended >> 8
         texts = []
         for path in (out, err):
