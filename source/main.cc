@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <commit.h>
+
 #include <iostream>
 #include <optional>
 
@@ -14,6 +16,8 @@ using namespace Talus;
 
 namespace
 {
+  std::string program() { return "talus " + version() + " (commit " + TALUS_COMMIT + ")"; }
+
   template <int dim>
   void run(Parameters &parameters, const CommandLine &command_line, const Resume *resume)
   {
@@ -21,10 +25,11 @@ namespace
     parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
     Simulation<dim> simulation(parameters, MPI_COMM_WORLD);
     parameters.parse();
+    const std::string origin = program() + ", " + command_line.text;
     if (resume != nullptr)
-      simulation.go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"));
+      simulation.go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"), origin);
     else if (!command_line.prints_parameters)
-      simulation.run();
+      simulation.run(origin);
     else if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       parameters.print(std::cout, /* with_help = */ true);
   }
@@ -59,7 +64,7 @@ int main(int argc, char **argv)
     if (command_line.wants_help && is_root)
       std::cout << CommandLine::help();
     else if (command_line.wants_version && is_root)
-      std::cout << "talus " << version() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
+      std::cout << program() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
     else if (command_line.wants_list && is_root)
       list_registered(std::cout);
     else if (!command_line.file_name.empty() || !command_line.directory.empty())

@@ -6,23 +6,36 @@ import shutil
 import subprocess
 import sys
 
+from copies import Copies
+
 
 class Runs:
     """Runs files that lie in `here` on some ranks, with directories in `work`, and counts the checks that fail."""
 
     def __init__(self, talus, work, mpirun, here):
         self.talus, self.work, self.mpirun, self.here, self.n_failed = talus, work, mpirun, here, 0
+        self.copies = None
+
+    def start(self, arguments, mpirun=None):
+        """Runs the program: exit status and text."""
+        mpirun = self.mpirun if mpirun is None else mpirun
+        if not mpirun:
+            self.copies = self.copies or Copies(self.talus)
+            status, out, err = self.copies.run(arguments)
+            return status, out + err
+        environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
+        result = subprocess.run(mpirun + [self.talus] + arguments, env=environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+        return result.returncode, result.stdout
 
     def execute(self, prm, name, *settings):
         """Runs a file with "Section/Entry = value"...: its directory, exit status and text."""
         directory = os.path.join(self.work, name)
         shutil.rmtree(directory, ignore_errors=True)
-        command = self.mpirun + [self.talus, os.path.join(self.here, prm)]
+        arguments = [os.path.join(self.here, prm)]
         for setting in settings + (f"Output/Directory = {directory}",):
-            command += ["--set", setting]
-        environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1")
-        result = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        return directory, result.returncode, result.stdout
+            arguments += ["--set", setting]
+        return (directory, *self.start(arguments))
 
     def run(self, prm, name, *settings):
         """Runs a file that must succeed and returns its directory."""

@@ -1,23 +1,48 @@
 # Tests that run the program itself. A driver prints one line per check and exits with 1 when one fails.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
+# Runs on one rank are copies of one program (copies.py).
+add_library(fork_server MODULE ${CMAKE_CURRENT_SOURCE_DIR}/fork_server.cc)
+target_link_libraries(fork_server PRIVATE ${CMAKE_DL_LIBS})
+set(TALUS_RUN_ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}" "TALUS_FORK_SERVER_LIBRARY=$<TARGET_FILE:fork_server>")
+
 # talus_add_run(NAME RANKS COMMAND...): a test that keeps `ranks` cores busy.
 function(talus_add_run name ranks)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN})
   set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 120
-    ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}")
+    ENVIRONMENT "${TALUS_RUN_ENVIRONMENT}")
 endfunction()
 
 set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)
 set(shear ${PROJECT_SOURCE_DIR}/prm/shear.prm)
 
 # Exit status and message of wrong inputs.
-foreach(group command_line entries numbers functions bodies points surroundings meshes diverged)
-  foreach(ranks 1 2)
+foreach(group command_line entries numbers functions bodies points surroundings meshes diverged
+    run kernel grid materials more_bodies conditions results files directories checkpoints)
+  # How several ranks end is the same for what is read alike.
+  set(n_ranks 1)
+  if(NOT group MATCHES "run|kernel|grid|materials|more_bodies|conditions|results")
+    set(n_ranks 1 2)
+  endif()
+  foreach(ranks ${n_ranks})
     talus_add_run(errors.${group}.mpirun=${ranks} ${ranks}
       ${CMAKE_CURRENT_SOURCE_DIR}/errors/run.py $<TARGET_FILE:talus> ${shear}
       ${work}/errors/${group}.${ranks} ${group} ${ranks} ${MPIRUN})
   endforeach()
+endforeach()
+
+# Spoiled files: 300 of them, and many.
+function(talus_fuzz name n seed timeout)
+  talus_add_run(${name} 1 ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/run.py $<TARGET_FILE:talus> ${work}/${name} ${n} ${seed})
+  set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout})
+endfunction()
+talus_fuzz(fuzz 300 1 600)
+talus_fuzz(fuzz.many 10000 2 7200)
+set_tests_properties(fuzz.many PROPERTIES LABELS long)
+
+foreach(ranks 1 2)
+  talus_add_run(install.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/install.py ${CMAKE_COMMAND}
+    ${PROJECT_BINARY_DIR} ${work}/install.${ranks} ${ranks} ${MPIRUN})
 endforeach()
 
 # Help of the commands, which needs no build and makes none.
@@ -148,6 +173,8 @@ foreach(case incline_2d incline_3d account damping energy bar_2d bar_3d pressure
 endforeach()
 
 # Runs that are stopped and resumed.
+talus_add_run(checkpoint.coverage 1 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
+  $<TARGET_FILE:talus> ${work}/checkpoint/coverage coverage 1)
 foreach(case boxes others undisturbed signals killed directory h5py)
   foreach(ranks 1 2)
     talus_add_run(checkpoint.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py

@@ -3,8 +3,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <new>
 #include <sstream>
 #include <thread>
 
@@ -12,8 +14,22 @@ namespace Talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    std::string quoted(const std::string &word)
+    {
+      const bool  is_plain = !word.empty() && word.find_first_of(" \t\n\"'\\\\$;&|<>*?()#`") == std::string::npos;
+      std::string text     = word;
+      for (std::size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
+        text.replace(at, 1, "'\\''");
+      return is_plain ? word : "'" + text + "'";
+    }
+  } // namespace
+
   CommandLine::CommandLine(int argc, char **argv)
   {
+    for (int i = 0; i < argc; ++i)
+      text += (i > 0 ? " " : "") + quoted(argv[i]);
     for (int i = 1; i < argc; ++i)
     {
       const std::string word = argv[i];
@@ -67,41 +83,36 @@ namespace Talus
 
   std::string version() { return TALUS_VERSION; }
 
-  namespace
+  std::string message_of(const std::exception &error)
   {
-    std::string message_of(const std::exception &error)
-    {
-      std::ostringstream text;
-      if (const auto *exception = dynamic_cast<const ExceptionBase *>(&error))
-        exception->print_info(text);
-      else
-        text << error.what();
-      std::string message = text.str();
-      while (!message.empty() && std::isspace(message.back()))
-        message.pop_back();
-      // Ten lines of a terminal at most.
-      std::size_t end = 0;
-      for (unsigned int line = 0; line < 10 && end != std::string::npos; ++line)
-        end = message.find('\n', end + (line > 0));
-      if (end != std::string::npos)
-        message = message.substr(0, end);
-      return shortened(message, 1000);
-    }
+    if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+      return "The memory of this machine is used up. Take fewer particles, a larger spacing, or more machines.";
+    std::ostringstream text;
+    if (const auto *exception = dynamic_cast<const ExceptionBase *>(&error))
+      exception->print_info(text);
+    else
+      text << error.what();
+    std::string message = text.str();
+    while (!message.empty() && std::isspace(message.back()))
+      message.pop_back();
+    // One line, and nothing that a terminal obeys.
+    std::replace_if(
+      message.begin(), message.end(), [](const unsigned char letter) { return letter < 32 || letter == 127; }, ' ');
+    return shortened(message, 1000);
+  }
 
-    /** Whether all ranks get here within two seconds. */
-    bool all_ranks_failed()
+  bool all_ranks_failed()
+  {
+    MPI_Request request;
+    int         has_arrived = 0;
+    MPI_Ibarrier(MPI_COMM_WORLD, &request);
+    for (unsigned int i = 0; i < 200 && !has_arrived; ++i)
     {
-      MPI_Request request;
-      int         has_arrived = 0;
-      MPI_Ibarrier(MPI_COMM_WORLD, &request);
-      for (unsigned int i = 0; i < 200 && !has_arrived; ++i)
-      {
-        MPI_Test(&request, &has_arrived, MPI_STATUS_IGNORE);
-        std::this_thread::sleep_for(std::chrono::milliseconds(has_arrived ? 0 : 10));
-      }
-      return has_arrived;
+      MPI_Test(&request, &has_arrived, MPI_STATUS_IGNORE);
+      std::this_thread::sleep_for(std::chrono::milliseconds(has_arrived ? 0 : 10));
     }
-  } // namespace
+    return has_arrived;
+  }
 
   int exit_status(const std::function<void()> &program)
   {

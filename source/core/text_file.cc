@@ -93,18 +93,24 @@ namespace Talus
       lines.push_back(line);
   }
 
+  std::string why_not_read(const std::string &path, const std::string &name)
+  {
+    struct stat status;
+    if (stat(path.c_str(), &status) != 0)
+      return "cannot read " + name + ": " + std::strerror(errno) +
+             ". Check the name and the directory talus is started in.";
+    if (S_ISDIR(status.st_mode))
+      return "cannot read " + name + ": it is a directory. Check the name: give that of a file.";
+    if (!std::ifstream(path))
+      return "cannot read " + name + ": there is no permission. Check who may read it.";
+    return "";
+  }
+
   TextFile::TextFile(const std::string &path, const std::string &purpose)
   {
     const std::string name = (purpose.empty() ? "" : purpose + " ") + "'" + path + "'";
-    struct stat       status;
-    std::ifstream     in(path, std::ios::binary);
-    if (stat(path.c_str(), &status) != 0)
-      problem =
-        "cannot read " + name + ": " + std::strerror(errno) + ". Check the name and the directory talus is started in.";
-    else if (S_ISDIR(status.st_mode))
-      problem = "cannot read " + name + ": it is a directory. Check the name: give that of a file.";
-    else if (!in)
-      problem = "cannot read " + name + ": there is no permission. Check who may read it.";
+    problem                = why_not_read(path, name);
+    std::ifstream in(path, std::ios::binary);
     if (!problem.empty() || in.peek() == std::ifstream::traits_type::eof())
       return;
     std::ostringstream bytes;

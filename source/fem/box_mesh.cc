@@ -1,10 +1,13 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
 #include <talus/fem/box_mesh.h>
 
 #include <deal.II/base/patterns.h>
 #include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace Talus
 {
@@ -37,6 +40,19 @@ namespace Talus
   template <int dim>
   void BoxMesh<dim>::create(parallel::distributed::Triangulation<dim> &triangulation) const
   {
+    // The least: the triangulation, and the matrix of linear elements.
+    constexpr double bytes_per_cell = dim == 2 ? 1000 : 5000;
+    double           wanted         = bytes_per_cell;
+    for (const unsigned int n : n_cells)
+      wanted *= n;
+    const double has = physical_memory(triangulation.get_communicator());
+    if (wanted > has)
+    {
+      std::ostringstream text;
+      text << std::setprecision(3) << "the mesh's " << wanted / bytes_per_cell << " cells take " << wanted / 1e9
+           << " GB at least, and there are " << has / 1e9 << " GB of memory. Take fewer.";
+      throw EntryError(get_section_name(), "Cells", text.str());
+    }
     // p4est keeps the coarse mesh on every rank: leave as much as possible to refinement.
     auto         n_coarse      = n_cells;
     unsigned int n_refinements = 0;

@@ -157,8 +157,8 @@ namespace Talus
         matrix(a, b) = gram[a * n + b];
     matrix.compute_svd();
     AssertThrow(matrix.singular_value(n - 1) > 1e-10 * matrix.singular_value(0),
-                InputError("The conditions in section '" + section.substr(section.find_first_not_of('/')) +
-                           "' leave the body free to move or turn as a whole. Prescribe more components, "
+                EntryError(section, "Names",
+                           "the conditions leave the body free to move or turn as a whole. Prescribe more components, "
                            "or another face."));
   }
 

@@ -112,7 +112,12 @@ namespace Talus
       return;
     std::vector<char> is_reached(fields.n_local(), 0);
     for (const double i : active)
-      is_reached.at(static_cast<unsigned int>(i)) = 1;
+    {
+      AssertThrow(i >= 0 && i < is_reached.size(),
+                  InputError("the checkpoint has a node " + std::to_string(i) +
+                             " that its grid has not. It is not of this run, or was changed."));
+      is_reached[static_cast<unsigned int>(i)] = 1;
+    }
     activate_nodes(std::move(is_reached));
   }
 

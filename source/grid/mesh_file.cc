@@ -1,8 +1,10 @@
 #include <talus/grid/mesh_file.h>
 
 #include <talus/core/exceptions.h>
+#include <talus/core/text_file.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 
@@ -15,12 +17,17 @@ namespace Talus
     class MshReader
     {
     public:
-      explicit MshReader(const std::string &path) : file(path) { input.name = path; }
+      explicit MshReader(const std::string &path)
+      {
+        input.name                = path;
+        const std::string problem = why_not_read(path, "the mesh '" + path + "'");
+        AssertThrow(problem.empty(), InputError(problem));
+        file.open(path);
+        n_bytes = std::filesystem::file_size(path);
+      }
 
       MeshInput<dim> read()
       {
-        if (!file)
-          fail("it cannot be opened. A relative path counts from where Talus runs");
         std::string word;
         if (!(file >> word) || word != "$MeshFormat")
           fail("it is no gmsh file");
@@ -59,6 +66,15 @@ namespace Talus
         return number;
       }
 
+      /** The number of things that follow, each of a letter and a blank at least. */
+      std::size_t next_count()
+      {
+        const long n = next();
+        if (n < 0 || static_cast<std::size_t>(n) > n_bytes / 2)
+          fail("it says that " + std::to_string(n) + " nodes follow, which cannot be. Write it again");
+        return n;
+      }
+
       void skip(const std::string &section)
       {
         const std::string end = "$End" + section.substr(1);
@@ -77,6 +93,7 @@ namespace Talus
       void         finish();
 
       std::ifstream                      file;
+      std::size_t                        n_bytes = 0; // of the file
       MeshInput<dim>                     input;
       std::map<int, std::string>         names;       // of physical groups of faces
       std::map<Entity, std::vector<int>> groups;      // physical groups of an entity
@@ -144,7 +161,7 @@ namespace Talus
         const int dimension = next();
         next();
         const bool        is_parametric = next() != 0;
-        std::vector<long> tags(next());
+        std::vector<long> tags(next_count());
         for (long &tag : tags)
           tag = next();
         for (const long tag : tags)
@@ -192,6 +209,9 @@ namespace Talus
       if (dimension > dim)
         fail("element " + std::to_string(tag) + " is a tetrahedron, but the run has " + std::to_string(dim) +
              " dimensions");
+      if (simplex->second != dimension + 1)
+        fail("element " + std::to_string(tag) + " of gmsh's type " + std::to_string(type) +
+             " stands among those of dimension " + std::to_string(dimension) + ". Write it again");
       unsigned int vertices[4];
       for (int k = 0; k < simplex->second; ++k)
       {

@@ -1,4 +1,6 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
+#include <talus/core/text_file.h>
 #include <talus/grid/mesh_check.h>
 #include <talus/grid/mesh_file.h>
 #include <talus/grid/mesh_generate.h>
@@ -9,12 +11,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
 namespace Talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    void check_memory(const std::vector<unsigned int> &boxes, const std::string &section, MPI_Comm communicator)
+    {
+      // What deal.II's triangulation of a simplex takes at least, with its share of nodes and tables.
+      constexpr double bytes_per_cell = dim == 2 ? 300 : 600;
+      double           n_cells = dim == 2 ? 2 : 6, n_nodes = 1;
+      for (const unsigned int count : boxes)
+      {
+        n_cells *= count;
+        n_nodes *= count + 1.;
+      }
+      const double       wanted = bytes_per_cell * n_cells, has = physical_memory(communicator);
+      std::ostringstream text;
+      text << std::setprecision(3) << "the mesh's " << n_cells << " cells take " << wanted / 1e9
+           << " GB at least, and there are " << has / 1e9 << " GB of memory. Take fewer.";
+      if (wanted > has || n_nodes > std::numeric_limits<unsigned int>::max())
+        throw EntryError(section, "Cells", text.str());
+    }
+  } // namespace
 
   template <int dim>
   SimplexGrid<dim>::SimplexGrid(const std::string &section, const Communicator &communicator) :
@@ -77,6 +102,11 @@ namespace Talus
       if (!(this->spacing[d] > 0))
         throw EntryError(section, "Spacing", "it must be positive.");
     }
+    const std::string problem = file.empty() ? "" : why_not_read(file, "the mesh '" + file + "'");
+    if (!problem.empty())
+      throw EntryError(section, "File", problem);
+    if (file.empty())
+      check_memory<dim>(cell_counts, section, this->communicator);
   }
 
   template <int dim>

@@ -1,4 +1,5 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/text_file.h>
 #include <talus/grid/closed_surface.h>
 
 #include <cmath>
@@ -15,8 +16,9 @@ namespace Talus
   {
     std::string read_file(const std::string &name)
     {
+      const std::string problem = why_not_read(name, "'" + name + "'");
+      AssertThrow(problem.empty(), InputError(problem));
       std::ifstream in(name, std::ios::binary);
-      AssertThrow(in, InputError("cannot read '" + name + "'. Check the name and the directory talus is started in."));
       return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
 

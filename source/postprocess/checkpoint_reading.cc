@@ -5,8 +5,10 @@
 #include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace Talus
 {
@@ -74,8 +76,17 @@ namespace Talus
       const Hid attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "attribute '" + name + "'");
       const Hid space(H5Aget_space(attribute), H5Sclose, "attribute '" + name + "'");
       double    number = 0;
-      check(H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0, name);
+      check(H5Sget_simple_extent_npoints(space) == 1 && H5Aread(attribute, H5T_NATIVE_DOUBLE, &number) >= 0 &&
+              std::isfinite(number),
+            name);
       return number;
+    }
+
+    unsigned int count_attribute(const hid_t object, const std::string &name)
+    {
+      const double number = number_attribute(object, name);
+      check(number >= 0 && number < std::numeric_limits<unsigned int>::max() && number == std::floor(number), name);
+      return static_cast<unsigned int>(number);
     }
   } // namespace
 
@@ -126,11 +137,11 @@ namespace Talus
                            ". Go on with the version that wrote it."));
     head.version    = text_attribute(id, "version");
     head.parameters = text_attribute(id, "parameters");
-    head.step       = static_cast<unsigned int>(number_attribute(id, "step"));
+    head.step       = count_attribute(id, "step");
     head.time       = number_attribute(id, "time");
-    n_ranks         = static_cast<unsigned int>(number_attribute(id, "ranks"));
-    check(size("begins/particles") == n_ranks + 1u, "begins/particles");
-    n_particles = static_cast<std::uint64_t>(numbers("begins/particles", n_ranks, n_ranks + 1)[0]);
+    n_ranks         = count_attribute(id, "ranks");
+    n_particles     = begins("particles").back();
+    check(size("particles/id") == n_particles, "particles/id");
   }
 
   CheckpointFile::~CheckpointFile() = default;
@@ -143,15 +154,29 @@ namespace Talus
     return H5Sget_simple_extent_npoints(space);
   }
 
+  std::vector<std::uint64_t> CheckpointFile::begins(const std::string &name) const
+  {
+    const std::string set = "begins/" + name;
+    check(size(set) == n_ranks + 1ull, set);
+    std::vector<std::uint64_t> result;
+    for (const double begin : numbers(set, 0, n_ranks + 1ull))
+    {
+      constexpr double most = 9007199254740992.; // beyond which doubles are no longer whole numbers apart
+      check(begin >= (result.empty() ? 0. : static_cast<double>(result.back())) && begin <= most, set);
+      result.push_back(static_cast<std::uint64_t>(begin));
+    }
+    return result;
+  }
+
   std::vector<double> CheckpointFile::numbers(const std::string &name, const std::uint64_t begin,
                                               const std::uint64_t end) const
   {
-    std::vector<double> result(end - begin);
-    const Hid           set(H5Dopen2(file->file, name.c_str(), H5P_DEFAULT), H5Dclose, "data set '" + name + "'");
-    const Hid           space(H5Dget_space(set), H5Sclose, "data set '" + name + "'");
+    const Hid set(H5Dopen2(file->file, name.c_str(), H5P_DEFAULT), H5Dclose, "data set '" + name + "'");
+    const Hid space(H5Dget_space(set), H5Sclose, "data set '" + name + "'");
     check(H5Sget_simple_extent_ndims(space) == 1 && begin <= end &&
             end <= static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space)),
           name);
+    std::vector<double> result(end - begin);
     if (begin == end)
       return result;
     const hsize_t offset = begin, count = end - begin;
@@ -181,7 +206,7 @@ namespace Talus
       shared[name] = numbers("numbers/" + name, 0, size("numbers/" + name));
     for (const auto &name : names("ranks"))
     {
-      const auto ends = numbers("begins/" + name, 0, n_ranks + 1);
+      const auto ends = begins(name);
       own[name]       = is_exact ? numbers("ranks/" + name, ends.at(rank), ends.at(rank + 1)) :
                                    numbers("ranks/" + name, 0, ends.back());
     }
@@ -196,9 +221,9 @@ namespace Talus
     std::uint64_t begin = n_particles * rank / n_now, end = n_particles * (rank + 1) / n_now;
     if (is_exact)
     {
-      const auto ends = numbers("begins/particles", rank, rank + 2);
-      begin           = static_cast<std::uint64_t>(ends[0]);
-      end             = static_cast<std::uint64_t>(ends[1]);
+      const auto ends = begins("particles");
+      begin           = ends.at(rank);
+      end             = ends.at(rank + 1);
     }
     particles.resize(0);
     particles.resize(end - begin);

@@ -8,9 +8,14 @@
 #include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+
+#include <fcntl.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
 
 namespace Talus
 {
@@ -104,6 +109,42 @@ namespace Talus
                              begin, n);
     }
 
+    /** What the file takes, and a little more [byte]. */
+    template <int dim>
+    std::uint64_t size_of(const Archive &archive, const WorkingSet<dim> &particles, MPI_Comm communicator)
+    {
+      constexpr std::uint64_t of_set = 2000, of_file = 20000;
+      std::uint64_t           here   = sizeof(double) * particles.size() * (particles.n_columns() + 2);
+      std::size_t             n_sets = particles.n_columns() + 2;
+      for (const auto *numbers : {&archive.all_shared(), &archive.all_of_rank()})
+        for (const auto &[name, values] : *numbers)
+        {
+          here += sizeof(double) * values.size();
+          n_sets += 2;
+        }
+      return Utilities::MPI::sum(here, communicator) + of_set * n_sets + of_file;
+    }
+
+    /**
+     * Whether the disk has so many bytes left, or the user's share of it: asked by taking them, and giving them back.
+     * HDF5 must not find out itself: what it keeps of a file that it cannot write ends the program when MPI does.
+     */
+    bool has_room(const std::string &path, const std::uint64_t n_bytes)
+    {
+      const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      if (file < 0)
+        return false;
+      const bool     is_taken = fallocate(file, 0, 0, n_bytes) == 0;
+      const bool     may_be   = is_taken || errno == EOPNOTSUPP || errno == ENOSYS;
+      struct statvfs space    = {};
+      const bool     is_good =
+        is_taken ||
+        (may_be && (fstatvfs(file, &space) != 0 || static_cast<double>(space.f_bavail) * space.f_frsize > n_bytes));
+      close(file);
+      std::remove(path.c_str());
+      return is_good;
+    }
+
     template <int dim>
     void write_hdf5(const std::string &path, const CheckpointHead &head, const Archive &archive,
                     const WorkingSet<dim> &particles, MPI_Comm communicator)
@@ -151,12 +192,14 @@ namespace Talus
                         const WorkingSet<dim> &particles, MPI_Comm communicator)
   {
     const std::string temporary = path + ".tmp";
-    // MPI truncates no file that is there.
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::remove(temporary.c_str());
+    const RunError    failure("Cannot write '" + path + "'. Is the disk full, or the directory gone?");
+    const auto        n_bytes = size_of(archive, particles, communicator);
+    // Removes what is there: MPI truncates no file.
+    run_on_root([&] { AssertThrow(has_room(temporary, n_bytes), failure); }, communicator);
     Hdf5Errors errors;
     try
     {
+      const QuietErrors quiet;
       write_hdf5(temporary, head, archive, particles, communicator);
     }
     catch (const ExceptionBase &)
@@ -164,7 +207,9 @@ namespace Talus
       errors.any = true;
     }
     const bool has_failed = Utilities::MPI::logical_or(errors.any, communicator);
-    AssertThrow(!has_failed, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
+    if (has_failed && Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::remove(temporary.c_str());
+    AssertThrow(!has_failed, failure);
     write_end(temporary, communicator);
     run_on_root([&] { rename_file(temporary, path); }, communicator);
   }

@@ -8,6 +8,9 @@
 #include <fstream>
 #include <regex>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace Talus
 {
   using namespace dealii;
@@ -91,21 +94,24 @@ namespace Talus
     // parameters.prm is not among them: it may be the very file from which the run is repeated.
     static const std::regex pattern(
       "((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|checkpoint_[0-9]{8,10}\\.h5|"
+      "failure_(grid_)?[0-9]{8,10}(\\.rank[0-9]+)?\\.(vtu|csv)|"
       "(statistics|probes|comparison|load_curve|verification)\\.csv|log\\.txt)(\\.tmp)?");
     return std::regex_match(name, pattern);
   }
 
   void remove_numbered_files(const std::string &directory, const unsigned int first)
   {
-    static const std::regex pattern("(?:particles|grid)(?:_([0-9]{5,}))?\\.(?:vtu|pvd|csv)(\\.tmp)?");
-    std::error_code         error;
-    std::vector<fs::path>   old;
+    static const std::regex pattern("(?:particles|grid)(?:_([0-9]{5,9}))?\\.(?:vtu|pvd|csv)(\\.tmp)?"),
+      of_failure("failure_.*\\.tmp");
+    std::error_code       error;
+    std::vector<fs::path> old;
     for (const auto &entry : fs::directory_iterator(directory, error))
     {
       std::smatch       match;
       const std::string name = entry.path().filename().string();
-      if (std::regex_match(name, match, pattern) &&
-          (match[2].matched || (match[1].matched && std::stoul(match[1]) >= first)))
+      if ((std::regex_match(name, match, pattern) &&
+           (match[2].matched || (match[1].matched && std::stoul(match[1]) >= first))) ||
+          std::regex_match(name, of_failure))
         old.push_back(entry.path());
     }
     for (const auto &file : old)
@@ -128,8 +134,27 @@ namespace Talus
     if (file)
       write(file);
     file.close();
+    if (!file)
+      std::remove(temporary.c_str());
     AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
     rename_file(temporary, path);
+  }
+
+  QuietErrors::QuietErrors() : stderr_before(dup(STDERR_FILENO))
+  {
+    const int nothing = open("/dev/null", O_WRONLY);
+    if (nothing >= 0 && stderr_before >= 0)
+      dup2(nothing, STDERR_FILENO);
+    if (nothing >= 0)
+      close(nothing);
+  }
+
+  QuietErrors::~QuietErrors()
+  {
+    if (stderr_before < 0)
+      return;
+    dup2(stderr_before, STDERR_FILENO);
+    close(stderr_before);
   }
 
   void run_on_root(const std::function<void()> &work, MPI_Comm communicator)

@@ -29,6 +29,33 @@ namespace Talus
       file.read(&text[0], text.size());
       return file && text.find(end) != std::string::npos;
     }
+
+    /** Rank after rank: the head, a piece of each, the foot. */
+    template <class DataOut>
+    void write_vtu_file(DataOut &data, const std::string &final_name, const DataOutBase::VtkFlags &flags,
+                        MPI_Comm communicator)
+    {
+      const std::string  temporary = final_name + ".tmp";
+      const RunError     failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
+      const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+      std::ostringstream head, foot;
+      if (my_rank == 0)
+        DataOutBase::write_vtu_header(head, flags);
+      if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
+        DataOutBase::write_vtu_footer(foot);
+      const std::string piece =
+        vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags, "id");
+      AssertThrow(write_in_parallel(temporary, head.str() + piece + foot.str(), communicator), failure);
+      run_on_root(
+        [&] {
+          const bool is_good = is_complete_vtu(temporary);
+          if (!is_good)
+            std::remove(temporary.c_str());
+          AssertThrow(is_good, failure);
+          rename_file(temporary, final_name);
+        },
+        communicator);
+    }
   } // namespace
 
   template <int dim>
@@ -155,27 +182,39 @@ namespace Talus
     DataOutBase::VtkFlags flags(times.back(), last_step, /* print_date_and_time = */ false,
                                 DataOutBase::VtkFlags::best_speed);
     flags.physical_units = units;
+    write_vtu_file(data, path + "/" + file_name(name, times.size() - 1, ".vtu"), flags, communicator);
+    run_on_root([&] { write_series(name); }, communicator);
+  }
 
-    const std::string final_name = path + "/" + file_name(name, times.size() - 1, ".vtu");
-    const std::string temporary  = final_name + ".tmp";
-    const RunError    failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
-    // Rank after rank: the head, a piece of each, the foot.
-    const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-    std::ostringstream head, foot;
-    if (my_rank == 0)
-      DataOutBase::write_vtu_header(head, flags);
-    if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
-      DataOutBase::write_vtu_footer(foot);
-    const std::string piece =
-      vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags, "id");
-    AssertThrow(write_in_parallel(temporary, head.str() + piece + foot.str(), communicator), failure);
-    run_on_root(
-      [&] {
-        AssertThrow(is_complete_vtu(temporary), failure);
-        rename_file(temporary, final_name);
-        write_series(name);
-      },
-      communicator);
+  template <int dim>
+  std::string Output<dim>::write_failure(const double time, const unsigned int step, const WorkingSet<dim> &particles,
+                                         const Grid<dim> *grid, MPI_Comm communicator) const
+  {
+    DataOutBase::VtkFlags flags(time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed);
+    // What a run may have failed by, whatever the file chooses.
+    auto names = field_names;
+    names.insert(names.end(), {"velocity", "stress", "deformation gradient", "volume ratio"});
+    const auto chosen = select_particle_fields(particles, names, this->get_section_name(), "Particle fields");
+
+    const bool is_part =
+      Utilities::MPI::n_mpi_processes(communicator) < Utilities::MPI::n_mpi_processes(this->communicator);
+    const std::string number = Utilities::int_to_string(step, 8),
+                      name =
+                        path + "/failure_" + number +
+                        (is_part ? ".rank" + std::to_string(Utilities::MPI::this_mpi_process(this->communicator)) : "");
+    ParticleOutput<dim> particle_output;
+    particle_output.build_patches(particles, chosen);
+    flags.physical_units = particle_output.units();
+    write_vtu_file(particle_output, name + ".vtu", flags, communicator);
+    if (with_csv)
+      write_particle_csv(name + ".csv", particles, chosen, time, communicator);
+    if (with_grid && grid)
+    {
+      GridOutput<dim> grid_output(*grid, with_whole_grid);
+      flags.physical_units = {{"mass", "mass"}, {"velocity", "length/time"}};
+      write_vtu_file(grid_output, path + "/failure_grid_" + number + ".vtu", flags, communicator);
+    }
+    return name + ".vtu";
   }
 
   template <int dim>

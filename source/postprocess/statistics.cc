@@ -22,6 +22,21 @@ namespace Talus
       struct stat status;
       return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
     }
+
+    /** Whether a line holds `n` finite numbers between commas. */
+    bool is_row(const std::string &line, const unsigned int n)
+    {
+      const char *at = line.c_str();
+      for (unsigned int c = 0; c < n; ++c)
+      {
+        char        *end    = nullptr;
+        const double number = std::strtod(at, &end);
+        if (end == at || !std::isfinite(number) || *end != (c + 1 < n ? ',' : '\0'))
+          return false;
+        at = end + 1;
+      }
+      return at == line.c_str() + line.size() + 1;
+    }
   } // namespace
 
   void CsvFile::open(const std::string &path, const std::vector<Column> &columns, MPI_Comm communicator)
@@ -63,8 +78,15 @@ namespace Talus
     AssertThrow(in, RunError("cannot read '" + path + "', to which the run that goes on would add rows."));
     AssertThrow(line == header(), RunError("the columns of '" + path + "' are not those of the run that goes on."));
     std::uintmax_t length = line.size() + 1;
-    while (std::getline(in, line) && !in.eof() && std::strtod(line.c_str(), nullptr) <= time)
+    for (unsigned int number = 2; std::getline(in, line) && !in.eof() && !(std::strtod(line.c_str(), nullptr) > time);
+         ++number)
+    {
+      AssertThrow(is_row(line, columns.size()),
+                  RunError("line " + std::to_string(number) + " of '" + path + "' is no row of " +
+                           std::to_string(columns.size()) +
+                           " numbers: the file was changed. Mend or remove the line for the run to go on."));
       length += line.size() + 1;
+    }
     return length;
   }
 
@@ -79,6 +101,7 @@ namespace Talus
         std::error_code error;
         std::filesystem::resize_file(path, length_until(time), error);
         file.open(path, std::ios::app);
+        file.seekp(0, std::ios::end);
         number = number_of_file(path);
         AssertThrow(!error && file, RunError("Cannot write '" + path + "'. Change its permissions."));
       },
@@ -99,8 +122,15 @@ namespace Talus
     }
     if (!is_root)
       return;
+    const auto length = file.tellp();
     file << row << std::endl;
     check_is_there();
-    AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full?"));
+    if (file)
+      return;
+    // Half a row would be none.
+    std::error_code ignored;
+    file.close();
+    std::filesystem::resize_file(path, length, ignored);
+    throw RunError("Cannot write '" + path + "'. Is the disk full?");
   }
 } // namespace Talus

@@ -1,3 +1,4 @@
+#include <talus/postprocess/files.h>
 #include <talus/postprocess/vtu.h>
 
 #include <deal.II/base/exceptions.h>
@@ -91,6 +92,7 @@ namespace Talus
     const auto all = [&](const int status) {
       return Utilities::MPI::min(status == MPI_SUCCESS ? 1 : 0, communicator) == 1;
     };
+    const QuietErrors quiet;
     // A file that is there already would keep what lies beyond the new end.
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       std::remove(path.c_str());
@@ -117,7 +119,10 @@ namespace Talus
       MPI_Get_count(&status, MPI_CHAR, &n_written);
       is_good = is_good && all(result == MPI_SUCCESS && n_written == static_cast<int>(n) ? MPI_SUCCESS : MPI_ERR_IO);
     }
-    return all(MPI_File_close(&file)) && is_good;
+    is_good = all(MPI_File_close(&file)) && is_good;
+    if (!is_good && Utilities::MPI::this_mpi_process(communicator) == 0)
+      std::remove(path.c_str());
+    return is_good;
   }
 
 #define INSTANTIATE(dim, spacedim)                                                                                     \

@@ -8,20 +8,23 @@ namespace Talus
   using namespace dealii;
 
   template <int dim>
-  void Simulation<dim>::go_on(const Resume &resume, const bool is_longer)
+  void Simulation<dim>::go_on(const Resume &resume, const bool is_longer, const std::string &origin)
   {
+    this->origin = origin;
     AssertThrow(!is_longer || !references.hang_on_end_time(),
                 InputError("a run that is compared with a reference cannot go on to another end time: what it has "
                            "measured so far belongs to the old one. Leave out 'End time', or start a new run."));
-    set_up();
-    restore(resume);
-    AssertThrow(!is_finished(), InputError("the run in '" + resume.directory + "' is at its end:" + now.text() +
-                                           ". Give a later one, --set \"Run/End time = ...\" or more "
-                                           "'Number of steps', if it is to go on."));
-    open_output(&resume);
-    for (const auto &warning : resume.warnings)
-      say_warning(warning + "; it is left out.");
-    step_to_end();
+    to_the_end([&] {
+      set_up();
+      restore(resume);
+      AssertThrow(!is_finished(), InputError("the run in '" + resume.directory + "' is at its end:" + now.text() +
+                                             ". Give a later one, --set \"Run/End time = ...\" or more "
+                                             "'Number of steps', if it is to go on."));
+      open_output(&resume);
+      for (const auto &warning : resume.warnings)
+        say_warning(warning + "; it is left out.");
+      step_to_end();
+    });
   }
 
   template <int dim>
@@ -39,6 +42,13 @@ namespace Talus
     const bool is_exact = !Utilities::MPI::logical_or(!is_same, communicator);
     Archive    archive  = file.archive(rank, is_exact);
     file.read(model.particles, is_exact, communicator);
+    for (unsigned int p = 0; p < model.particles.size(); ++p)
+    {
+      const auto x = model.particles.vector(model.particles.position, p);
+      AssertThrow(std::isfinite(x.norm()) && (model.grid.keeps_places() || model.grid.contains(x)),
+                  InputError("the checkpoint '" + resume.file + "' has a particle at " + to_text(x) +
+                             ", outside the grid of its run. It is not of this run, or was changed."));
+    }
     model.particles.take_over(is_exact);
     serialize(archive);
     first_step = now.step;
@@ -71,21 +81,11 @@ namespace Talus
       checkpoints.write({version(), parameters.settings_text(), now.step, now.time}, archive, model.particles);
   }
 
-  template <int dim>
-  void Simulation<dim>::stop()
-  {
-    progress->finish(now.time, now.step);
-    say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
-        resources.memory(model.particles.n_global) + "Stopped by " + model.requests.signal_name() + now.text() +
-        ". It goes on with: talus --resume " + output.directory() + "\nCheckpoint " + last_checkpoint + '\n');
-  }
-
 #define INSTANTIATE(dim)                                                                                               \
-  template void Simulation<dim>::go_on(const Resume &, const bool);                                                    \
+  template void Simulation<dim>::go_on(const Resume &, const bool, const std::string &);                               \
   template void Simulation<dim>::restore(const Resume &);                                                              \
   template void Simulation<dim>::serialize(Archive &);                                                                 \
-  template void Simulation<dim>::checkpoint();                                                                         \
-  template void Simulation<dim>::stop();
+  template void Simulation<dim>::checkpoint();
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

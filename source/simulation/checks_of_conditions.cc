@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace Talus
@@ -146,6 +147,10 @@ namespace Talus
     const bool        is_fixed = std::strtod(parameters.value("/Run", "Step size", "0").c_str(), nullptr) > 0;
     const std::string entry    = is_fixed ? "Step size" : "Courant number";
     const double      n_steps  = end_time / step_size;
+    if (n_steps > std::numeric_limits<unsigned int>::max() && max_steps == 0)
+      throw EntryError("/Run", "End time",
+                       sentence("the run would take ", n_steps, " steps of ", step_size, " to the end time ", end_time,
+                                ", more than can be counted. Check the units of times and stiffnesses."));
     if (n_steps > 1e9 && max_steps == 0)
       warn("/Run", "End time",
            sentence("the run takes ", n_steps, " steps of ", step_size, " to the end time ", end_time,

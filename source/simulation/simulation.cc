@@ -31,12 +31,15 @@ namespace Talus
   }
 
   template <int dim>
-  void Simulation<dim>::run()
+  void Simulation<dim>::run(const std::string &origin)
   {
-    set_up();
-    open_output();
-    postprocess();
-    step_to_end();
+    this->origin = origin;
+    to_the_end([&] {
+      set_up();
+      open_output();
+      postprocess();
+      step_to_end();
+    });
   }
 
   template <int dim>
@@ -44,28 +47,20 @@ namespace Talus
   {
     const bool is_root = Utilities::MPI::this_mpi_process(communicator) == 0;
     resources.start_steps();
-    try
     {
       const Requests::Signals caught;
       while (!is_finished() && !model.requests.is_stopped())
       {
         model.requests.wants_checkpoint = is_root && checkpoints.is_due_by_clock();
-        advance();
-        check();
+        step();
         postprocess();
         checkpoint();
       }
-    }
-    catch (const RunError &error)
-    {
-      log << "ended: failed. " << error.message << std::endl;
-      throw;
     }
     if (is_finished())
       finish();
     else
       stop();
-    log << "ended: " << (is_finished() ? "done" : model.requests.signal_name()) << std::endl;
   }
 
   template <int dim>
@@ -97,6 +92,10 @@ namespace Talus
   void Simulation<dim>::check()
   {
     AssertThrow(!report.has_failed, RunError(report.failure + now.text() + ". " + report.remedy));
+    AssertThrow(report.n_particles == model.particles.n_global,
+                RunError("There are " + std::to_string(static_cast<std::uint64_t>(report.n_particles)) +
+                         " particles, not " + std::to_string(model.particles.n_global) + ',' + now.text() +
+                         ": some were lost or counted twice between ranks. Lower the Courant number."));
     if (!report.news.empty())
     {
       progress->end_line();
@@ -151,6 +150,10 @@ namespace Talus
     }
     say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
         resources.memory(model.particles.n_global));
+    const double mean = static_cast<double>(model.particles.n_global) / Utilities::MPI::n_mpi_processes(communicator);
+    if (report.most_particles > 1.5 * mean && parameters.value("/Run", "Largest imbalance", "0") == "0")
+      say("  the busiest rank has " + std::to_string(static_cast<int>(100 * report.most_particles / mean)) +
+          " % of the mean number of particles: 'Largest imbalance = 1.2' in section 'Run' shares the cells out anew\n");
   }
 
   template <int dim>
@@ -168,7 +171,7 @@ namespace Talus
       output.open(communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
     {
-      log.open(output.directory() + "/log.txt", resume ? std::ios::app : std::ios::out);
+      start_log(resume != nullptr);
       std::ofstream used(output.directory() + "/parameters.prm");
       parameters.print(used, /* with_help = */ false);
       AssertThrow(log && used.flush(), RunError("Cannot write into the directory '" + output.directory() + "'."));

@@ -150,6 +150,7 @@ namespace Talus
     Report report;
     report.signal_speed     = greatest(sums.signal_speed);
     report.displacement     = displacement;
+    report.n_particles      = particles.size();
     report.most_particles   = particles.size();
     report.needs_migration  = particles.needs_synchronise;
     report.needs_activation = particles.needs_activation;

@@ -53,6 +53,10 @@ class Case:
     arguments: list = field(default_factory=lambda: ["case.prm"])
     files: dict = field(default_factory=dict)
     output: str = ""  # directory whose files must be complete and finite
+    before: list = field(default_factory=list)  # arguments of runs that must succeed first
+    spoil: object = None  # called with the directory, after them
+    disk: int = 0  # kB of a file system for the directory 'disk'
+    is_user: bool = False  # run by somebody who is not root
 
 
 # On a mesh of triangles.

@@ -49,6 +49,26 @@ def problems_in_csv(text):
     return []
 
 
+def problems_in_failure(directory, stderr):
+    """Of the state that a message names: it must have all particles, whatever their numbers are."""
+    named = re.search(r"The state at the failure is in '([^']*)'", stderr)
+    if not named:
+        return ["the message names no state at the failure"]
+    path = os.path.join(directory, named[1])
+    try:
+        whole, begin = (arrays_of_vtu(p) for p in (path, os.path.join(os.path.dirname(path), "particles_00000.vtu")))
+    except FileNotFoundError as error:
+        return [f"{error.filename} does not exist"]
+    if sorted(whole["id"]) != sorted(begin["id"]) or len(whole["points"]) != len(begin["points"]):
+        return [f"{named[1]} has {len(whole['id'])} particles, not {len(begin['id'])}"]
+    with open(os.path.join(os.path.dirname(path), "log.txt")) as log:
+        first, *_, last = log.read().splitlines()
+    problems = [] if re.search(r"started on \S+ in '.*', \d+ rank\(s\): talus \d\S* \(commit \w[-\w]*\), .*--set", first) else [
+        f"the first line of log.txt is '{first}'"]
+    message = next(line[7:] for line in stderr.splitlines() if line.startswith("talus: "))
+    return problems if last.endswith(" ended: failed. " + message) else problems + [f"the last line of log.txt is '{last}'"]
+
+
 def problems_in_vtu(text):
     if not text.rstrip().endswith("</VTKFile>"):
         return ["incomplete"]
@@ -65,11 +85,15 @@ def problems_in_directory(directory):
         if wanted not in names:
             problems.append(f"{wanted} is missing")
     for name in names:
+        if name.endswith(".h5"):
+            continue  # its checksum tells
         with open(os.path.join(directory, name)) as file:
             text = file.read()
         found = []
         if name.endswith(".tmp"):
             found = ["left over"]
+        elif name.startswith("failure_"):
+            found = [] if text.rstrip().endswith("</VTKFile>") else ["incomplete"]
         elif name.endswith(".csv"):
             found = problems_in_csv(text)
         elif name.endswith(".vtu"):

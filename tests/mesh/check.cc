@@ -139,7 +139,7 @@ void wrong_meshes()
     read_changed<3>("$MeshFormat", "$MeshFormat"); // as it is, it is read
     read_msh<2>(data("block.msh"));
   });
-  refused("no file", {"nowhere.msh", "cannot be opened"}, [] { read_msh<2>("nowhere.msh"); });
+  refused("no file", {"nowhere.msh", "cannot read"}, [] { read_msh<2>("nowhere.msh"); });
   refused("other version", {"version 2.2, not 4.1"}, [] { read_changed<2>("4.1 0 8", "2.2 0 8"); });
   refused("binary", {"binary"}, [] { read_changed<2>("4.1 0 8", "4.1 1 8"); });
   refused("quadrilaterals", {"element 53", "type 3"}, [] { read_changed<2>("2 1 2 ", "2 1 3 "); });

@@ -13,6 +13,7 @@ namespace Talus
 
     static std::string help();
 
+    std::string              text; // as a shell would take it
     std::string              file_name;
     std::string              directory; // of the run that is to go on
     std::vector<std::string> overrides;
@@ -27,4 +28,10 @@ namespace Talus
    * number of ranks; an error on some ranks only ends the others too.
    */
   int exit_status(const std::function<void()> &program);
+
+  /** The message of an error, of a thousand letters at most. */
+  std::string message_of(const std::exception &error);
+
+  /** Whether all ranks get here within two seconds, and so have failed alike. */
+  bool all_ranks_failed();
 } // namespace Talus

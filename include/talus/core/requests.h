@@ -34,6 +34,8 @@ namespace Talus
     /** Its name: "SIGTERM". */
     std::string signal_name() const;
 
+    int signal_number() const { return static_cast<int>(signal); }
+
     void add_to(Reduction &reduction);
 
   private:

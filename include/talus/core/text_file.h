@@ -23,4 +23,7 @@ namespace Talus
   /** The same for bytes in memory; `name` is what messages call them, quoted. */
   void read_text(const std::string &bytes, const std::string &name, std::vector<std::string> &lines,
                  std::string &problem);
+
+  /** Why a file cannot be read, or nothing; `name` is what a message calls it: "the mesh 'a.msh'". */
+  std::string why_not_read(const std::string &path, const std::string &name);
 } // namespace Talus

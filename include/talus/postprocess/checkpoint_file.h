@@ -71,6 +71,9 @@ namespace Talus
     std::vector<std::string> names(const std::string &group) const;
     std::uint64_t            size(const std::string &name) const;
 
+    /** Where each rank's part of a data set begins, and its end. */
+    std::vector<std::uint64_t> begins(const std::string &name) const;
+
     std::string             path;
     std::unique_ptr<Handle> file;
   };

@@ -34,6 +34,18 @@ namespace Talus
   /** Gives a finished file its final name. Throws RunError. */
   void rename_file(const std::string &temporary, const std::string &path);
 
+  /** As long as one is there, stderr of this rank goes nowhere: MPI writes its own words of a full disk there. */
+  class QuietErrors
+  {
+  public:
+    QuietErrors();
+    ~QuietErrors();
+    QuietErrors(const QuietErrors &) = delete;
+
+  private:
+    int stderr_before;
+  };
+
   /** Runs `work` on rank 0; a RunError there is thrown on all ranks. Collective. */
   void run_on_root(const std::function<void()> &work, MPI_Comm communicator);
 

@@ -59,6 +59,14 @@ namespace Talus
     /** Writes all files of this output. `Particles<dim>` is a working set. Collective. */
     void write(const double time, const unsigned int step, const WorkingSet<dim> &particles, const Grid<dim> &grid);
 
+    /**
+     * Writes the state in which a run has failed, apart from the series of good ones: failure_NNNNNNNN.vtu with the
+     * number of the step, and failure_grid_NNNNNNNN.vtu if a grid is given. The name of the first. Collective in
+     * `communicator`, which may be one rank of several: then it is failure_NNNNNNNN.rank3.vtu.
+     */
+    std::string write_failure(const double time, const unsigned int step, const WorkingSet<dim> &particles,
+                              const Grid<dim> *grid, MPI_Comm communicator) const;
+
     /** True when the state at the end of the run has yet to be written. */
     bool is_due_at_end(const unsigned int step) const { return with_final_state && !is_written(step); }
 

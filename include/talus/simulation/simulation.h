@@ -16,6 +16,7 @@
 #include <talus/steppers/stepper.h>
 
 #include <fstream>
+#include <functional>
 
 namespace Talus
 {
@@ -29,18 +30,21 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    void run();
+    /** `origin`: of program and command line, for the log. */
+    void run(const std::string &origin = "");
 
     /** The same from a checkpoint on; `is_longer`: to another end time. */
-    void go_on(const Resume &resume, const bool is_longer);
+    void go_on(const Resume &resume, const bool is_longer, const std::string &origin = "");
 
   private:
     bool is_finished() const { return now.time >= end_time || (max_steps > 0 && now.step >= max_steps); }
     void set_up();
     void restore(const Resume &resume);
     void open_output(const Resume *resume = nullptr);
+    void start_log(const bool goes_on);
     void step_to_end();
     void fill_table();
+    void step();
     void advance();
     void check();
     void look_for_fracture();
@@ -48,6 +52,13 @@ namespace Talus
     void checkpoint();
     void finish();
     void stop();
+
+    /** Runs `work`; the log keeps how it ended. */
+    void to_the_end(const std::function<void()> &work);
+    void note_failure(const std::exception &error);
+
+    /** Writes the state of a step that has failed: what the message says of it. `is_whole`: the step was at its end. */
+    std::string write_failure(const bool is_whole);
 
     /** All that is remembered from one step to the next, beside the particles. Collective. */
     void serialize(Archive &archive);
@@ -65,6 +76,8 @@ namespace Talus
     Timing             timing;
     unsigned int       output_section, reference_section, checkpoint_section; // of it
     std::ofstream      log;
+    std::string        origin;           // of the run, for the log
+    bool               is_alone = false; // in an error that other ranks have not met
 
     Model<dim>                    model;
     std::unique_ptr<Stepper<dim>> stepper;

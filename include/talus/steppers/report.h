@@ -15,6 +15,7 @@ namespace Talus
     bool   needs_migration  = false;
     bool   needs_activation = false;
 
+    double n_particles      = 0;
     double most_particles   = 0; // that a rank has
     double mass             = 0; // [mass]
     double kinetic_energy   = 0; // [energy]
@@ -32,6 +33,7 @@ namespace Talus
       reduction.any(needs_migration);
       reduction.any(needs_activation);
       reduction.any(has_failed);
+      reduction.sum(n_particles);
       reduction.sum(mass);
       reduction.sum(kinetic_energy);
       reduction.sum(body_force_power);

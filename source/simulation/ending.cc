@@ -1,0 +1,131 @@
+#include <talus/simulation/simulation.h>
+
+#include <talus/core/command_line.h>
+#include <talus/core/exceptions.h>
+
+#include <array>
+#include <ctime>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string date()
+    {
+      const std::time_t    now = std::time(nullptr);
+      std::array<char, 64> text{};
+      std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %z", std::localtime(&now));
+      return text.data();
+    }
+  } // namespace
+
+  template <int dim>
+  void Simulation<dim>::start_log(const bool goes_on)
+  {
+    std::array<char, 256> host{};
+    gethostname(host.data(), host.size() - 1);
+    log.open(output.directory() + "/log.txt", goes_on ? std::ios::app : std::ios::out);
+    log << date() << " started on " << host.data() << " in '" << std::filesystem::current_path().string() << "', "
+        << Utilities::MPI::n_mpi_processes(communicator) << " rank(s): " << origin << std::endl;
+  }
+
+  template <int dim>
+  void Simulation<dim>::to_the_end(const std::function<void()> &work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const EntryError &error)
+    {
+      note_failure(InputError(parameters.locate(error)));
+      throw;
+    }
+    catch (const std::exception &error)
+    {
+      note_failure(error);
+      throw;
+    }
+    log << date() << " ended: "
+        << (is_finished() ?
+              "done" :
+              "signal " + std::to_string(model.requests.signal_number()) + " (" + model.requests.signal_name() + ")")
+        << std::endl;
+  }
+
+  template <int dim>
+  void Simulation<dim>::note_failure(const std::exception &error)
+  {
+    is_alone                   = is_alone || !all_ranks_failed();
+    const bool        is_input = dynamic_cast<const InputError *>(&error) != nullptr;
+    const std::string text = date() + " ended: " + (is_input ? "wrong input. " : "failed. ") + message_of(error) + '\n';
+    if (log.is_open())
+      log << text << std::flush;
+    else if (is_alone && progress) // the first rank knows nothing of it, and will be ended
+      std::ofstream(output.directory() + "/log.txt", std::ios::app) << text;
+  }
+
+  template <int dim>
+  void Simulation<dim>::step()
+  {
+    std::string problem;
+    bool        is_whole = false;
+    try
+    {
+      advance();
+      is_whole = true;
+      check();
+      return;
+    }
+    catch (const RunError &error)
+    {
+      problem = error.message;
+    }
+    if (!is_whole)
+      problem += " It was the step after" + now.text() + ".";
+    throw RunError(problem + write_failure(is_whole));
+  }
+
+  template <int dim>
+  std::string Simulation<dim>::write_failure(const bool is_whole)
+  {
+    is_alone = !all_ranks_failed();
+    try
+    {
+      const bool has_grid = is_whole && !is_alone;
+      return " The state at the failure is in '" +
+             output.write_failure(now.time, now.step, model.particles, has_grid ? &model.grid : nullptr,
+                                  is_alone ? MPI_COMM_SELF : static_cast<MPI_Comm>(communicator)) +
+             "'.";
+    }
+    catch (const RunError &error)
+    {
+      return " " + error.message;
+    }
+  }
+
+  template <int dim>
+  void Simulation<dim>::stop()
+  {
+    progress->finish(now.time, now.step);
+    say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
+        resources.memory(model.particles.n_global) + "Stopped by " + model.requests.signal_name() + now.text() +
+        ". It goes on with: talus --resume " + output.directory() + "\nCheckpoint " + last_checkpoint + '\n');
+  }
+
+#define INSTANTIATE(dim)                                                                                               \
+  template void        Simulation<dim>::start_log(const bool);                                                         \
+  template void        Simulation<dim>::to_the_end(const std::function<void()> &);                                     \
+  template void        Simulation<dim>::note_failure(const std::exception &);                                          \
+  template void        Simulation<dim>::step();                                                                        \
+  template std::string Simulation<dim>::write_failure(const bool);                                                     \
+  template void        Simulation<dim>::stop();
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Talus
