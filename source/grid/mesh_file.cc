@@ -1,10 +1,13 @@
 #include <talus/grid/mesh_file.h>
 
 #include <talus/core/exceptions.h>
+#include <talus/core/text_file.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <map>
+#include <type_traits>
 
 namespace Talus
 {
@@ -22,8 +25,11 @@ namespace Talus
         if (!file)
           fail("it cannot be opened. A relative path counts from where Talus runs");
         std::string word;
-        if (!(file >> word) || word != "$MeshFormat")
-          fail("it is no gmsh file");
+        file >> word;
+        if (word.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark
+          word.erase(0, 3);
+        if (word != "$MeshFormat")
+          refuse_format();
         read_format();
         while (file >> word)
           if (word == "$PhysicalNames")
@@ -50,13 +56,36 @@ namespace Talus
         throw InputError("The mesh '" + input.name + "' cannot be read: " + what + ".");
       }
 
+      /** Says what a file is that does not begin as one of gmsh. */
+      [[noreturn]] void refuse_format() const
+      {
+        const TextFile text(input.name);
+        if (!text.problem.empty())
+          throw InputError("The mesh cannot be read: " + text.problem);
+        fail(text.lines.empty() ? "it is empty" : "it is no gmsh file, which begins with $MeshFormat");
+      }
+
       template <class Number = long>
       Number next()
       {
-        Number number;
-        if (!(file >> number))
-          fail("it ends too early, or something stands where a number should");
-        return number;
+        std::string word;
+        if (!(file >> word))
+          fail("it ends too early");
+        double number = 0;
+        if (!read_number(word, number) || !std::isfinite(number) ||
+            (std::is_integral_v<Number> && number != std::floor(number)))
+          fail("in line " + std::to_string(line()) + " '" + shortened(word) + "' stands where a finite number should");
+        return static_cast<Number>(number);
+      }
+
+      /** The line that has been read last. */
+      std::size_t line()
+      {
+        file.clear();
+        std::string all(std::max<std::streamoff>(file.tellg(), 0), ' ');
+        file.seekg(0);
+        file.read(all.data(), all.size());
+        return 1 + std::count(all.begin(), all.end(), '\n');
       }
 
       void skip(const std::string &section)

@@ -23,4 +23,10 @@ namespace Talus
   /** The same for bytes in memory; `name` is what messages call them, quoted. */
   void read_text(const std::string &bytes, const std::string &name, std::vector<std::string> &lines,
                  std::string &problem);
+
+  /**
+   * Whether all of `word` is a number, infinite or NaN included, which it then is; exponents may be Fortran's, D for E, or
+   * nothing at all before three digits.
+   */
+  bool read_number(const std::string &word, double &number);
 } // namespace Talus
