@@ -18,6 +18,36 @@ namespace Talus
     return std::regex_search(expression, std::regex("\\b" + name + "\\b"));
   }
 
+  namespace
+  {
+    /** What muParser takes and hardly anybody means: it evaluates "9,81" to 81, and "x = 3" sets x. */
+    std::string misunderstanding(const std::string &expression)
+    {
+      int depth = 0;
+      for (std::size_t i = 0; i < expression.size(); ++i)
+      {
+        const char c = expression[i];
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (c == ',' && depth == 0)
+          return "commas separate arguments of functions; write decimal points, and ';' between components";
+        const std::string around = (i > 0 ? expression.substr(i - 1, 1) : " ") + expression.substr(i + 1, 1);
+        if (c == '=' && around.find_first_of("=<>!") == std::string::npos)
+          return "'=' sets a variable; '==' compares";
+      }
+      return "";
+    }
+
+    /** Formulas as they were given: one that stands for all components was given once. */
+    std::string as_given(const std::string &expressions)
+    {
+      const auto list = Utilities::split_string_list(expressions, ';');
+      for (const auto &expression : list)
+        if (expression != list.front())
+          return shortened(expressions);
+      return shortened(list.front());
+    }
+  } // namespace
+
   std::string formula_error(const std::function<void()> &read)
   {
     std::ostringstream dropped, reason;
@@ -65,13 +95,18 @@ namespace Talus
 
     const std::string variables = (dim == 2) ? "x,y,t" : "x,y,z,t";
     parser                      = std::make_unique<FunctionParser<dim>>(dim);
-    const std::string reason    = formula_error([&] {
-      parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
-      evaluate(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
-    });
+    std::string reason;
+    for (const auto &expression : list)
+      if (reason.empty())
+        reason = misunderstanding(expression);
+    if (reason.empty())
+      reason = formula_error([&] {
+        parser->initialize(variables, expressions, {{"pi", numbers::PI}}, true);
+        evaluate(Point<dim>(), 0.); // muParser reads a formula when it is first evaluated
+      });
     if (!reason.empty())
       throw EntryError(section, entry,
-                       "cannot understand '" + shortened(expressions) + "': " + shortened(reason, 200) + ". Use " +
+                       "cannot understand '" + as_given(expressions) + "': " + shortened(reason, 200) + ". Use " +
                          variables + ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
   }
 
@@ -85,7 +120,7 @@ namespace Talus
         std::ostringstream where;
         where << (varies ? " at " + to_text<dim>(x) + "," : "") << " at t = " << time;
         throw EntryError(section, entry,
-                         "the formula '" + shortened(expressions) + "' has no finite value" + where.str() +
+                         "the formula '" + as_given(expressions) + "' has no finite value" + where.str() +
                            ". Correct it, so that it is defined everywhere and up to the end of the run.");
       }
     return v;

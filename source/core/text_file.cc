@@ -1,8 +1,10 @@
 #include <talus/core/text_file.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <sys/stat.h>
 #include <utility>
@@ -83,9 +85,16 @@ namespace Talus
       replace_all(text, "\xa0", " ");
     else
     {
-      // No-break, figure, thin, narrow no-break and ideographic space; minus sign.
-      for (const char *blank : {"\xc2\xa0", "\xe2\x80\x87", "\xe2\x80\x89", "\xe2\x80\xaf", "\xe3\x80\x80"})
+      // What has no width: zero-width space, its joiners and marks of direction, word joiner, soft hyphen.
+      for (const char *nothing :
+           {"\xe2\x80\x8b", "\xe2\x80\x8c", "\xe2\x80\x8d", "\xe2\x80\x8e", "\xe2\x80\x8f", "\xe2\x81\xa0", "\xc2\xad"})
+        replace_all(text, nothing, "");
+      // No-break, narrow no-break, mathematical and ideographic space, and those from en quad to hair space; minus
+      // sign.
+      for (const char *blank : {"\xc2\xa0", "\xe2\x80\xaf", "\xe2\x81\x9f", "\xe3\x80\x80"})
         replace_all(text, blank, " ");
+      for (char last = '\x80'; last <= '\x8a'; ++last)
+        replace_all(text, std::string("\xe2\x80") + last, " ");
       replace_all(text, "\xe2\x88\x92", "-");
     }
     std::istringstream in(text);
@@ -104,6 +113,20 @@ namespace Talus
     if (!std::ifstream(path))
       return "cannot read " + name + ": there is no permission. Check who may read it.";
     return "";
+  }
+
+  bool read_number(const std::string &word, double &number)
+  {
+    char *end = nullptr;
+    number    = std::strtod(word.c_str(), &end);
+    if (!word.empty() && *end == '\0')
+      return true;
+    static const std::regex fortran("([+-]?(?:\\d+\\.?\\d*|\\.\\d+))(?:[dD]([+-]?\\d+)|([+-]\\d{3}))");
+    std::smatch             parts;
+    if (!std::regex_match(word, parts, fortran))
+      return false;
+    number = std::strtod((parts[1].str() + "e" + parts[2].str() + parts[3].str()).c_str(), &end);
+    return true;
   }
 
   TextFile::TextFile(const std::string &path, const std::string &purpose)

@@ -92,7 +92,7 @@ namespace Talus
              << " is wanted). The load step to t = " << time << " took " << n_iterations << " iterations and "
              << n_halvings
              << " halvings until here. Soften the material less, take more 'Steps' or finer cells in section '"
-             << get_section_name() << "', or end earlier.";
+             << get_section_name().substr(1) << "', or end earlier.";
         throw RunError(text.str());
       }
     }

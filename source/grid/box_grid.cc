@@ -212,8 +212,11 @@ namespace Talus
   BoxGrid<dim> &box_grid(Grid<dim> &grid, const std::string &section, const std::string &entry)
   {
     const auto box = dynamic_cast<BoxGrid<dim> *>(&grid);
-    AssertThrow(box != nullptr,
-                EntryError(section, entry, "this needs a box grid: set 'Type = box' in section 'Grid'."));
+    AssertThrow(
+      box != nullptr,
+      EntryError(section, entry,
+                 "this needs a box grid: set 'Type = box' in section 'Grid'" +
+                   std::string(section == "/Kernel" ? ", or take a kernel for meshes, such as 'UMLS'." : ".")));
     return *box;
   }
 

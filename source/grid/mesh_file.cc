@@ -4,9 +4,11 @@
 #include <talus/core/text_file.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <type_traits>
 
 namespace Talus
 {
@@ -29,8 +31,11 @@ namespace Talus
       MeshInput<dim> read()
       {
         std::string word;
-        if (!(file >> word) || word != "$MeshFormat")
-          fail("it is no gmsh file");
+        file >> word;
+        if (word.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark
+          word.erase(0, 3);
+        if (word != "$MeshFormat")
+          refuse_format();
         read_format();
         while (file >> word)
           if (word == "$PhysicalNames")
@@ -57,13 +62,36 @@ namespace Talus
         throw InputError("The mesh '" + input.name + "' cannot be read: " + what + ".");
       }
 
+      /** Says what a file is that does not begin as one of gmsh. */
+      [[noreturn]] void refuse_format() const
+      {
+        const TextFile text(input.name);
+        if (!text.problem.empty())
+          throw InputError("The mesh cannot be read: " + text.problem);
+        fail(text.lines.empty() ? "it is empty" : "it is no gmsh file, which begins with $MeshFormat");
+      }
+
       template <class Number = long>
       Number next()
       {
-        Number number;
-        if (!(file >> number))
-          fail("it ends too early, or something stands where a number should");
-        return number;
+        std::string word;
+        if (!(file >> word))
+          fail("it ends too early");
+        double number = 0;
+        if (!read_number(word, number) || !std::isfinite(number) ||
+            (std::is_integral_v<Number> && number != std::floor(number)))
+          fail("in line " + std::to_string(line()) + " '" + shortened(word) + "' stands where a finite number should");
+        return static_cast<Number>(number);
+      }
+
+      /** The line that has been read last. */
+      std::size_t line()
+      {
+        file.clear();
+        std::string all(std::max<std::streamoff>(file.tellg(), 0), ' ');
+        file.seekg(0);
+        file.read(all.data(), all.size());
+        return 1 + std::count(all.begin(), all.end(), '\n');
       }
 
       /** The number of things that follow, each of a letter and a blank at least. */

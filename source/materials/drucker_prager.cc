@@ -50,6 +50,10 @@ namespace Talus
       doubts.emplace_back(get_section_name(), "Friction angle",
                           "it is " + std::to_string(friction_angle) +
                             " degrees; soils have 15 to 45. Radians and tangents are no degrees.");
+    if (dilatancy_angle > 0 && dilatancy_angle < 1)
+      doubts.emplace_back(get_section_name(), "Dilatancy angle",
+                          "it is " + std::to_string(dilatancy_angle) +
+                            " degrees; dense sands have 5 to 15. Radians and tangents are no degrees.");
     return doubts;
   }
 

@@ -1,7 +1,9 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/text_file.h>
 #include <talus/particles/point_table.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <regex>
@@ -61,20 +63,28 @@ namespace Talus
       return split_at_blanks(line);
     }
 
-    /** Whether all of `word` is a number, infinite or NaN included, which it then is. */
-    bool is_number(const std::string &word, double &number)
+    /** A column's name in small letters, without quotes. */
+    std::string plain_name(const std::string &word)
     {
-      char *end = nullptr;
-      number    = std::strtod(word.c_str(), &end);
-      if (!word.empty() && *end == '\0')
+      std::string name;
+      for (const unsigned char letter : word)
+        if (letter != '"' && letter != '\'')
+          name += static_cast<char>(std::tolower(letter));
+      return name;
+    }
+
+    /** Whether a column that is called so can be what is read as `name`. */
+    bool may_be(const std::string &called, const std::string &name, const std::vector<std::string> &names)
+    {
+      if (called == name)
         return true;
-      // Fortran: D for E, and nothing at all before exponents of three digits.
-      static const std::regex fortran("([+-]?(?:\\d+\\.?\\d*|\\.\\d+))(?:[dD]([+-]?\\d+)|([+-]\\d{3}))");
-      std::smatch             parts;
-      if (!std::regex_match(word, parts, fortran))
-        return false;
-      number = std::strtod((parts[1].str() + "e" + parts[2].str() + parts[3].str()).c_str(), &end);
-      return true;
+      // V, vol, dv, area: of a volume; anything else is something else.
+      if (name == "volume")
+        return called[0] == 'v' || called.rfind("dv", 0) == 0 || called[0] == 'a' || called.find("vol") != called.npos;
+      const std::vector<std::string> others = {"id",      "index", "number", "nr",  "no",      "node",
+                                               "element", "mass",  "m",      "rho", "density", "pressure"};
+      return std::find(names.begin(), names.end(), called) == names.end() &&
+             std::find(others.begin(), others.end(), called) == others.end() && called.rfind("vol", 0) != 0;
     }
 
     std::string list(const std::vector<std::string> &words)
@@ -90,18 +100,17 @@ namespace Talus
   {
     double number = 0;
     for (const auto &word : words)
-      if (is_number(word, number))
+      if (read_number(word, number))
         return false;
     // "x [m]": units are no names.
     std::vector<std::string> found;
     for (const auto &word : words)
       if (word.find_first_of("[(") != 0)
-        found.push_back(word);
+        found.push_back(plain_name(word));
     for (unsigned int i = 0; i < names.size() && i < found.size(); ++i)
-      for (unsigned int k = 0; k < names.size(); ++k)
-        AssertThrow(k == i || found[i] != names[k],
-                    InputError(where + ": the columns are called '" + shortened(list(found)) + "', but are read as '" +
-                               list(names) + "'. Put them into this order."));
+      AssertThrow(found[i].empty() || may_be(found[i], names[i], names),
+                  InputError(where + ": the columns are called '" + shortened(list(found)) + "', but are read as '" +
+                             list(names) + "'. Put them into this order, and call them so."));
     return true;
   }
 
@@ -111,7 +120,9 @@ namespace Talus
     for (const auto &word : words)
     {
       double     number = 0;
-      const bool is_one = is_number(word, number);
+      const bool is_one = read_number(word, number);
+      AssertThrow(!word.empty(),
+                  InputError(where + ": a number is missing between two separators. Complete the line."));
       if (!is_one && word.find(',') != std::string::npos)
         throw InputError(where + ": '" + shortened(word) +
                          "' is not a number. Write decimal points, not commas; separate numbers by blanks, or all of "

@@ -69,7 +69,12 @@ namespace Talus
     check_yield();
     check_materials();
     check_idle_entries();
+    check_filling();
+    check_clipping();
+    check_pressures();
+    check_loads();
     check_intervals();
+    check_overridden();
     check_edges();
     check_floor();
     check_steps(step_size, signal_speed, max_steps);
@@ -173,10 +178,8 @@ namespace Talus
       const double       bottom = extents[b].lower[up], top = extents[b].upper[up];
       const double       round_off = 1e-6 * model.grid.spacing[up];
       const auto         middle    = extents[b].lower + (extents[b].upper - extents[b].lower) / 2;
-      double             g         = 0;
-      for (const double time : {0., end_time})
-        if (const double here = -model.acceleration.value(Point<dim>(middle), time)[up]; std::abs(here) > std::abs(g))
-          g = here;
+      // Gravity must act from the start: a ramp would let the layer go at once.
+      const double      g      = 0 - model.acceleration.value(Point<dim>(middle), 0.)[up]; // 0, not -0
       const double      weight = model.materials[body.material]->density * g;
       const double      stress = layer->unit_weight * std::max(0., layer->surface_level - bottom);
       const std::string column =
@@ -185,11 +188,22 @@ namespace Talus
       if (!(std::abs(layer->unit_weight - weight) <= 0.02 * std::abs(weight)))
         warn(body.get_section_name(), "Unit weight",
              sentence("it is ", layer->unit_weight, ", but density times body force is ", weight,
-                      ": the body will not be at rest. ", column));
+                      " at the start: the body will not be at rest. ", column));
       if (layer->surface_level < top - round_off)
         warn(body.get_section_name(), "Surface level",
              sentence("it is ", layer->surface_level, ", but the body reaches up to ", axes[up], " = ", top,
                       ": what lies above the level begins without stress. ", column));
+      // What lies above presses: another body, or a load.
+      bool is_loaded = !model.tractions.loads.empty();
+      for (const auto &other : extents)
+        is_loaded = is_loaded || other.upper[up] > top + round_off;
+      const double above = layer->surface_level - top;
+      if (!is_loaded && above > model.grid.spacing[up] &&
+          weight * above > 0.02 * weight * (layer->surface_level - bottom))
+        warn(body.get_section_name(), "Surface level",
+             sentence("it is ", layer->surface_level, ", but nothing lies above the body, which ends at ", axes[up],
+                      " = ", top, ": there the initial stress is ", layer->unit_weight * above,
+                      ", and nothing bears it. ", column));
     }
   }
 

@@ -170,7 +170,7 @@ namespace Talus
   {
     Particles<dim> &particles = model.particles;
     const auto      ranges    = material_ranges(particles, dt, model.transfer->is_plain);
-    watch->start(ranges, time + dt, dt);
+    watch->start(ranges, time, dt);
     particles.start_relocation();
     model.f_bar.start(particles);
 

@@ -34,6 +34,14 @@ namespace Talus
   }
 
   template <int dim>
+  double FractureWatch<dim>::spacing(const Model<dim> &model, const unsigned int p) const
+  {
+    const auto  &particles = model.particles;
+    const double volume = particles.component(particles.volume, 0)[p] / determinant(particles.matrix(particles.F, p));
+    return std::pow(volume, 1. / dim);
+  }
+
+  template <int dim>
   template <class Visitor>
   void FractureWatch<dim>::for_each_beyond(const Model<dim> &model, const double &least, const Visitor &visitor) const
   {
@@ -65,7 +73,7 @@ namespace Talus
     Tensor<1, dim> direction;
     for (unsigned int d = 0; d < dim; ++d)
       direction[d] = system.vector[d][a];
-    return std::sqrt(std::max(system.value[a], 0.)) * spacings[model.particles.body[p]] * direction;
+    return std::sqrt(std::max(system.value[a], 0.)) * spacing(model, p) * direction;
   }
 
   template <int dim>
@@ -121,7 +129,7 @@ namespace Talus
       std::ostringstream text;
       text << "the body '" << model.bodies[b]->name << "' comes apart (numerical fracture): at "
            << to_text(model.particles.vector(model.particles.position, p)) << " it is stretched "
-           << towards.norm() / spacings[b] << "-fold, and neighbours " << ratio(model, towards) * reach
+           << towards.norm() / spacing(model, p) << "-fold, and neighbours " << ratio(model, towards) * reach
            << " spacings apart are beyond the kernel's reach of " << reach;
       found = {model.particles.id[p], text.str()};
     });

@@ -217,7 +217,7 @@ namespace Talus
   {
     // A body fills a third of the box around it at least, and particles take what they carry.
     double      n = 0, most = 0;
-    std::string largest;
+    std::string section, entry;
     for (const auto &body : bodies)
     {
       const double here = body->shape->n_indices();
@@ -225,7 +225,8 @@ namespace Talus
       if (here > most)
       {
         most    = here;
-        largest = body->get_section_name();
+        section = body->get_section_name();
+        entry   = body->shape->density_entry();
       }
     }
     const double wanted = n / 3 * particles.n_columns() * sizeof(double), has = physical_memory(grid.communicator);
@@ -234,7 +235,7 @@ namespace Talus
          << " GB at least, and there are " << has / 1e9
          << " GB of memory. Take fewer, a larger spacing or smaller bodies.";
     if (wanted > has)
-      throw EntryError(largest, "Particles per cell and direction", text.str());
+      throw EntryError(section, entry, text.str());
   }
 
   template <int dim>

@@ -31,7 +31,9 @@ namespace Talus
     std::string       text  = fixed.empty() ? "Lower the Courant number" : "Take " + fixed;
     const auto        form  = model.kernel->product_form();
     if (form && std::holds_alternative<LinearFunction>(form->function))
-      return text + ", or take a B-spline: linear kernels are unstable where particles pass the nodes.";
+      return (fixed.empty() ? "Take" : text + ", and take") +
+             std::string(" a B-spline ('Type = quadratic B-spline' in section 'Kernel'): linear kernels are unstable "
+                         "where particles pass the nodes, at any Courant number.");
     const std::string treatment = form ? chosen("Kernel", "Boundary treatment") : "";
     if (treatment == "none" || treatment == "Steffen")
       text += ", or take complete kernels at the faces: 'Boundary treatment = ghost nodes'";

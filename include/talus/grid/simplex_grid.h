@@ -70,8 +70,11 @@ namespace Talus
     /** Moves nothing: what is outside by round-off belongs to a cell nevertheless. */
     bool enter(dealii::Tensor<1, dim> &x) const override { return contains(x); }
 
-    /** All or nothing. */
-    double share_inside(dealii::Point<dim> &x) const override { return contains(x) ? 1. : 0.; }
+    /**
+     * The share of a small ball around x that lies in the mesh, for a body that its boundary cuts: a half on a plane
+     * face, a quarter on the edge between two of a box; 0 where no cell of this rank holds x.
+     */
+    double share_inside(dealii::Point<dim> &x) const override;
 
     std::vector<bool> are_inside(const std::vector<dealii::Point<dim>> &points) const override;
     std::string       extent() const override;

@@ -9,7 +9,7 @@ namespace Talus
   struct Amount
   {
     std::uint64_t n      = 0; // particles
-    double        volume = 0; // [volume]
+    double        volume = 0; // [volume]; NaN where a mesh cuts the body
   };
 
   /**

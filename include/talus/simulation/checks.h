@@ -54,13 +54,24 @@ namespace Talus
     void check_yield();
     void check_materials();
     void check_idle_entries();
+    void check_filling();
+    void check_clipping();
+    void check_pressures();
+    void check_loads();
 
     // Conditions
     void check_intervals();
     void check_edges();
+    void check_overridden();
     void check_floor();
 
     void check_steps(const double step_size, const double signal_speed, const unsigned int max_steps);
+
+    /** The mean body force per mass at a body's middle in the course of the run. */
+    dealii::Tensor<1, dim> mean_pull(const unsigned int body) const;
+
+    /** Whether a condition holds nodes along an axis within or below (above) a body, or nearly so. Collective. */
+    bool is_held(const unsigned int body, const unsigned int axis, const bool is_upper) const;
 
     void warn(const std::string &section, const std::string &entry, const std::string &message)
     {

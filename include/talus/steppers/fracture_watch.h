@@ -38,6 +38,9 @@ namespace Talus
     void add_to(Table &table) const { table.add("neighbour distance", "reach", distance); }
 
   private:
+    /** Distance of the neighbours of a particle before it was stretched: the edge of its volume then [length]. */
+    double spacing(const Model<dim> &model, const unsigned int p) const;
+
     /** The longest of the vectors to a particle's neighbours [length]. */
     dealii::Tensor<1, dim> neighbour(const Model<dim> &model, const unsigned int p) const;
 

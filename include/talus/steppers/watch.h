@@ -17,7 +17,8 @@ namespace Talus
   public:
     explicit Watch(Model<dim> &model) : model(model) {}
 
-    /** Begins with the state at `time`, after a step of size `dt`; `ranges` must stay until finish(). */
+    /** Begins with the state after a step of size `dt` that began at `time`, when its body force acted; `ranges` must
+     * stay until finish(). */
     void start(const std::vector<MaterialRange> &ranges, const double time, const double dt);
 
     /** Looks at the particles begin .. end - 1, after their relocate(). */
