@@ -40,6 +40,8 @@ namespace Talus
                                const std::vector<Nodes::Neighbour> &from, Buffers &in, double *values,
                                const Receive &receive)
   {
+    if (requests.empty()) // waiting for nobody would give the processor to others
+      return;
     auto request = requests.begin();
     for (unsigned int k = 0; k < from.size(); ++k)
       MPI_Irecv(in[k].data(), in[k].size(), MPI_DOUBLE, from[k].rank, message_tag, nodes.communicator, &*request++);

@@ -150,7 +150,8 @@ namespace Talus
                            "carry. Upkeep comes before the next step."));
     {
       const Timing::Scope scope(*timing, f_bar);
-      model.f_bar.average_stress(model.materials.size(), *model.kernel, model.particles, model.grid);
+      model.f_bar.start(model.materials.size(), *model.kernel, model.particles, model.grid);
+      model.f_bar.average_stress(model.particles, model.grid);
     }
     {
       const Timing::Scope scope(*timing, particle_to_grid);
@@ -172,7 +173,6 @@ namespace Talus
     const auto      ranges    = material_ranges(particles, dt, model.transfer->is_plain);
     watch->start(ranges, time, dt);
     particles.start_relocation();
-    model.f_bar.start(particles);
 
     const unsigned int block        = dim == 2 ? 1024 : 512;
     double             displacement = 0;
@@ -192,7 +192,7 @@ namespace Talus
     {
       sweep.run(particles.size(), block);
       const Timing::Scope scope(*timing, f_bar);
-      model.f_bar.average_rate(model.materials.size(), *model.kernel, dt, particles, model.grid);
+      model.f_bar.average_rate(dt, particles, model.grid);
     }
     sweep.add(stress, [&](const unsigned int begin, const unsigned int end) {
       deform(particles, model.materials, ranges, begin, end);

@@ -31,7 +31,7 @@ namespace Talus
     kernel(parameters.make<Kernel<dim>>("/Kernel", "Type", "quadratic B-spline", "Kernel function.")),
     transfer(
       parameters.make<Transfer<dim>>("/Transfer", "Type", "TPIC", "Scheme that carries motion to the grid and back.")),
-    smoothing(parameters), f_bar(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
+    smoothing(parameters), acceleration_text(dim == 2 ? "0; 0" : "0; 0; 0")
   {
     kernel->choose(parameters);
     build_bodies(parameters);

@@ -27,42 +27,74 @@ namespace Talus
   }
 
   template <int dim>
-  void FBar<dim>::average(const MaterialRange &range, const bool is_adjoint, const Kernel<dim> &kernel,
-                          Particles<dim> &particles, const Grid<dim> &grid)
+  void FBar<dim>::start(const unsigned int n_materials, const Kernel<dim> &kernel, Particles<dim> &particles,
+                        const Grid<dim> &grid)
   {
-    // Without the division the average is its own adjoint, in the metric of the masses. What it makes of ones:
-    std::vector<double> sum(particles.size(), 1.);
-    const auto          apply = [&](std::vector<double> &a) {
-      std::array<typename Averaging<dim>::Quantity, dim> quantities;
-      quantities[0].value = a.data();
-      averaging.apply(quantities, /* empty = */ {}, particles, range.begin, range.end, kernel, grid);
-    };
-    const auto divide = [&] {
-      for (unsigned int p = range.begin; p < range.end; ++p)
-        mean[p] /= sum[p];
-    };
-    if (kernel.product_form()) // all others sum to one
-      apply(sum);
-    for (unsigned int n = 0; n < n_passes; ++n)
+    if (!is_on)
+      return;
+    weights.find(kernel, particles);
+    mass.resize(n_materials);
+    if (means.is_empty())
+      means.reinit(grid.nodes);
+    mean.assign(particles.size(), 1.);
+    for (unsigned int m = 0; m < n_materials; ++m)
     {
-      if (is_adjoint)
-        divide();
-      apply(mean);
-      if (!is_adjoint)
-        divide();
+      if (mass[m].is_empty())
+        mass[m].reinit(grid.nodes);
+      scatter(material_range(particles, m, /* dt = */ 0.), mean.data(), grid, mass[m]);
     }
   }
 
   template <int dim>
-  void FBar<dim>::average_stress(const unsigned int n_materials, const Kernel<dim> &kernel, Particles<dim> &particles,
-                                 const Grid<dim> &grid)
+  void FBar<dim>::scatter(const MaterialRange &range, const double *numbers, const Grid<dim> &grid, NodalArray<1> &to)
+  {
+    product.resize(range.end);
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      product[p] = range.mass[p] * numbers[p];
+    to.clear(grid.active_nodes);
+    weights.scatter(product.data(), range.begin, range.end, to);
+    to.add_copies_to_owners();
+  }
+
+  template <int dim>
+  void FBar<dim>::average(const bool is_adjoint, Particles<dim> &particles, const Grid<dim> &grid)
+  {
+    // Without the division the average is its own adjoint, in the metric of the masses.
+    const auto &sum = weights.sums();
+    for (unsigned int m = 0; m < mass.size(); ++m)
+    {
+      const auto range  = material_range(particles, m, /* dt = */ 0.);
+      const auto divide = [&] {
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          mean[p] /= sum[p];
+      };
+      for (unsigned int n = 0; n < n_passes; ++n)
+      {
+        if (is_adjoint)
+          divide();
+        scatter(range, mean.data(), grid, means);
+        for (const unsigned int i : grid.active_nodes)
+        {
+          const double m_i = *mass[m][i];
+          *means[i]        = m_i > grid.mass_floor ? *means[i] / m_i : 0.;
+        }
+        means.update_copies();
+        weights.gather(means, range.begin, range.end, mean.data());
+        if (!is_adjoint)
+          divide();
+      }
+    }
+  }
+
+  template <int dim>
+  void FBar<dim>::average_stress(Particles<dim> &particles, const Grid<dim> &grid)
   {
     if (!is_on)
       return;
     remove_added(particles, 0, particles.size());
-    mean.resize(particles.size());
     const double *volume = particles.component(particles.volume, 0), *mass = particles.component(particles.mass, 0);
     double *const added = particles.component(added_stress, 0);
+    mean.resize(particles.size());
     for (unsigned int p = 0; p < particles.size(); ++p)
     {
       added[p] = 0;
@@ -70,8 +102,7 @@ namespace Talus
         added[p] -= particles.component(particles.stress, d)[p] / dim;
       mean[p] = -added[p] * volume[p] / mass[p];
     }
-    for (unsigned int m = 0; m < n_materials; ++m)
-      average(material_range(particles, m, /* dt = */ 0.), /* is_adjoint = */ true, kernel, particles, grid);
+    average(/* is_adjoint = */ true, particles, grid);
     for (unsigned int p = 0; p < particles.size(); ++p)
       added[p] += mean[p] * mass[p] / volume[p];
     add_added(particles, 0, particles.size());
@@ -91,16 +122,7 @@ namespace Talus
   }
 
   template <int dim>
-  void FBar<dim>::start(const Particles<dim> &particles)
-  {
-    if (!is_on)
-      return;
-    positions.keep(particles);
-  }
-
-  template <int dim>
-  void FBar<dim>::average_rate(const unsigned int n_materials, const Kernel<dim> &kernel, const double dt,
-                               Particles<dim> &particles, const Grid<dim> &grid)
+  void FBar<dim>::average_rate(const double dt, Particles<dim> &particles, const Grid<dim> &grid)
   {
     mean.resize(particles.size());
     own.resize(particles.size());
@@ -115,10 +137,7 @@ namespace Talus
       batch.store(mean.data(), change);
       batch.store(own.data(), change);
     });
-    positions.exchange(particles);
-    for (unsigned int m = 0; m < n_materials; ++m)
-      average(material_range(particles, m, dt), /* is_adjoint = */ false, kernel, particles, grid);
-    positions.exchange(particles);
+    average(/* is_adjoint = */ false, particles, grid);
     for_each_batch(0, particles.size(), [&](const auto batch) {
       using Number   = typename std::decay_t<decltype(batch)>::Number;
       const Number s = exp((batch.load(mean.data()) - batch.load(own.data())) / double(dim));

@@ -84,10 +84,7 @@ def case_boxes(runs):
 
 def case_others(runs):
     for case in all_of("others"):
-        # F-bar averages where particles are when they have just strayed from their rank: nodes that it does not know are
-        # left as they were in some step before.
-        if not (runs.mpirun and case.name == "F-bar"):
-            round_trip(runs, case)
+        round_trip(runs, case)
 
 
 def case_balance(runs):

@@ -18,6 +18,7 @@ DECLARE(many_particles)
 DECLARE(parts)
 DECLARE(moving_between_parts)
 DECLARE(generated_mesh)
+DECLARE(f_bar_on_a_mesh)
 DECLARE(particles_on_a_mesh)
 DECLARE(transfers_on_a_mesh)
 DECLARE(shares_on_a_mesh)
@@ -65,6 +66,8 @@ int main(int argc, char **argv)
                     {"parts: errors", parts_errors},
                     {"generated mesh 2D", generated_mesh<2>},
                     {"generated mesh 3D", generated_mesh<3>},
+                    {"F-bar on a mesh 2D", f_bar_on_a_mesh<2>},
+                    {"F-bar on a mesh 3D", f_bar_on_a_mesh<3>},
                     {"particles on a mesh 2D", particles_on_a_mesh<2>},
                     {"particles on a mesh 3D", particles_on_a_mesh<3>},
                     {"transfers on a mesh 2D", transfers_on_a_mesh<2>},

@@ -204,8 +204,8 @@ void f_bar()
 
     double error = 0;
     setup.fill(particles.grad_v, [&](const unsigned int, const unsigned int c) { return 1. + c; });
-    f_bar.start(particles);
-    f_bar.average_rate(1, *setup.kernel, dt, particles, setup.grid);
+    f_bar.start(1, *setup.kernel, particles, setup.grid);
+    f_bar.average_rate(dt, particles, setup.grid);
     for (unsigned int p = 0; p < particles.size(); ++p)
       raise(error, dt * (particles.matrix(seen, p) - particles.matrix(particles.grad_v, p)).norm());
     check(kernel + ": a uniform change stays", error, 1e-13);
@@ -215,12 +215,12 @@ void f_bar()
     for (unsigned int p = 0; p < particles.size(); ++p)
       change[p] = std::log(determinant(deformation(particles.grad_v, p)));
     const auto mean = average(change);
-    f_bar.start(particles);
+    f_bar.start(1, *setup.kernel, particles, setup.grid);
     const auto x = particles.vector(particles.position, 0);
     for (unsigned int d = 0; d < dim; ++d) // particles have moved; the weights are those from before
       for (unsigned int p = 0; p < particles.size(); ++p)
         particles.component(particles.position, d)[p] += 1e-3;
-    f_bar.average_rate(1, *setup.kernel, dt, particles, setup.grid);
+    f_bar.average_rate(dt, particles, setup.grid);
     double moved = 0;
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int p = 0; p < particles.size(); ++p)
@@ -244,7 +244,7 @@ void f_bar()
     std::vector<std::vector<double>> before;
     for (const double *column : columns)
       before.emplace_back(column, column + particles.size());
-    f_bar.average_stress(1, *setup.kernel, particles, setup.grid);
+    f_bar.average_stress(particles, setup.grid);
     // The adjoint: whatever the numbers a, sum V p-of-the-nodes a = sum V p (A A a).
     const auto averaged = average(other);
     double     left = 0, right = 0, size = 0, shear = 0, back = 0;
