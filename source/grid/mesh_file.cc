@@ -31,8 +31,7 @@ namespace Talus
       MeshInput<dim> read()
       {
         std::string word;
-        file >> word;
-        if (word.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark
+        if (file >> word; word.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark
           word.erase(0, 3);
         if (word != "$MeshFormat")
           refuse_format();
@@ -66,8 +65,7 @@ namespace Talus
       [[noreturn]] void refuse_format() const
       {
         const TextFile text(input.name);
-        if (!text.problem.empty())
-          throw InputError("The mesh cannot be read: " + text.problem);
+        AssertThrow(text.problem.empty(), InputError("The mesh cannot be read: " + text.problem));
         fail(text.lines.empty() ? "it is empty" : "it is no gmsh file, which begins with $MeshFormat");
       }
 
