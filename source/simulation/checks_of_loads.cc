@@ -11,7 +11,7 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_filling()
   {
-    // The largest box of the lattice, or two triangles or six tetrahedra.
+    // The largest box of the grid, or two triangles or six tetrahedra.
     double cell_volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       cell_volume *= model.grid.spacing[d];
