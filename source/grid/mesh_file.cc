@@ -78,7 +78,8 @@ namespace Talus
         double number = 0;
         if (!read_number(word, number) || !std::isfinite(number) ||
             (std::is_integral_v<Number> && number != std::floor(number)))
-          fail("in line " + std::to_string(line()) + " '" + shortened(word) + "' stands where a finite number should");
+          fail((word.front() == '$' ? "a section ends too early: in line " : "in line ") + std::to_string(line()) +
+               " '" + shortened(word) + "' stands where a finite number should");
         return static_cast<Number>(number);
       }
 
