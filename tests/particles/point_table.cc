@@ -47,7 +47,7 @@ void point_table()
   error("decimal commas and semicolons", {"0,31;0,31;0,0025"}, "Write decimal points");
   error("nothing but commas", {"0,31,0,31,0,0025"}, "If commas stand for decimal points, write points");
   error("two separators", {"0.31,0.31 0.0025"}, "all of them by commas");
-  error("nothing between commas", {"0.31,,0.0025"}, "file:1: '' is not a finite number");
+  error("nothing between commas", {"0.31,,0.0025"}, "file:1: a number is missing between two separators");
   error("one too many", {"1 2 3", "1 2 3 4"}, "file:2: expected 3 numbers (x y volume), found 4");
   error("too large", {"1e400 2 3"}, "'1e400' is too large");
   error("infinite", {"inf 2 3"}, "'inf' is not a finite number");
