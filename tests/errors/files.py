@@ -93,7 +93,7 @@ def problems_in_directory(directory):
         if name.endswith(".tmp"):
             found = ["left over"]
         elif name.startswith("failure_"):
-            found = [] if text.rstrip().endswith("</VTKFile>") else ["incomplete"]
+            found = [] if text.rstrip().endswith("</VTKFile>") or (name.endswith(".csv") and text.endswith("\n")) else ["incomplete"]
         elif name.endswith(".csv"):
             found = problems_in_csv(text)
         elif name.endswith(".vtu"):
