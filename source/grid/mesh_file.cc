@@ -237,8 +237,7 @@ namespace Talus
         fail("element " + std::to_string(tag) + " is a tetrahedron, but the run has " + std::to_string(dim) +
              " dimensions");
       if (simplex->second != dimension + 1)
-        fail("element " + std::to_string(tag) + " of type " + std::to_string(type) +
-             " stands among those of dimension " + std::to_string(dimension));
+        fail("element " + std::to_string(tag) + " of type " + std::to_string(type) + " is of another dimension");
       unsigned int vertices[4];
       for (int k = 0; k < simplex->second; ++k)
       {
