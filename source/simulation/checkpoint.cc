@@ -44,8 +44,10 @@ namespace Talus
     file.read(model.particles, is_exact, communicator);
     for (unsigned int p = 0; p < model.particles.size(); ++p)
     {
-      const auto x = model.particles.vector(model.particles.position, p);
-      AssertThrow(std::isfinite(x.norm()) && (model.grid.keeps_places() || model.grid.contains(x)),
+      const auto x         = model.particles.vector(model.particles.position, p);
+      const bool is_inside = !model.grid.keeps_places() ? model.grid.contains(x) :
+                                                          !is_exact || model.particles.place[p] < model.grid.n_places();
+      AssertThrow(std::isfinite(x.norm()) && is_inside,
                   InputError("the checkpoint '" + resume.file + "' has a particle at " + to_text(x) +
                              ", outside the grid of its run. It is not of this run, or was changed."));
     }

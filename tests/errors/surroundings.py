@@ -165,7 +165,7 @@ CASES = {
         Case("a mesh cut short", MESH + [("set Cells = 16, 8", FROM_FILE)], ["case.msh", "ends too early"],
              files={"case.msh": msh("0 0 0\n2 0 0\n0 1 0\n", "1 1 2 3\n")["case.msh"][:-18]}),
         Case("a mesh that is empty", MESH + [("set Cells = 16, 8", FROM_FILE)], ["case.msh"], files={"case.msh": ""}),
-        Case("a binary mesh", MESH + [("set Cells = 16, 8", FROM_FILE)], ["case.msh", "no gmsh file"], files={"case.msh": BINARY}),
+        Case("a binary mesh", MESH + [("set Cells = 16, 8", FROM_FILE)], ["case.msh", "is a binary file", "plain text"], files={"case.msh": BINARY}),
         Case("a directory as mesh", MESH + [("set Cells = 16, 8", FROM_FILE)], ["FILE:LINE: ", "entry 'File'", "it is a directory"],
              files={"case.msh/a": ""}),
         Case("a mesh of old times", MESH + [("set Cells = 16, 8", FROM_FILE)], ["case.msh", "version 2.2", "gmsh -format msh41"],
