@@ -108,12 +108,13 @@ namespace Talus
   Tensor<1, dim> Checks<dim>::mean_pull(const unsigned int body) const
   {
     const auto &acceleration = model.acceleration;
-    const auto  middle       = extents[body].lower + (extents[body].upper - extents[body].lower) / 2;
+    const auto  size         = extents[body].upper - extents[body].lower;
+    const auto  middle       = extents[body].lower + size / 2;
     // A formula that is never asked for some place or time need not be finite there.
-    const auto value = [&](const double time) {
+    const auto value = [&](const Tensor<1, dim> &x, const double time) {
       try
       {
-        return acceleration.value(Point<dim>(middle), time);
+        return acceleration.value(Point<dim>(x), time);
       }
       catch (const EntryError &)
       {
@@ -122,8 +123,15 @@ namespace Talus
     };
     constexpr unsigned int n_times = 64;
     Tensor<1, dim>         mean;
+    // On either side of the middle along each axis: forces that go round it, or towards it, are no pull.
     for (unsigned int k = 0; k < n_times; ++k)
-      mean += value(end_time * (k + 0.5) / n_times) / n_times;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const double side : {-0.25, 0.25})
+        {
+          Tensor<1, dim> x = middle;
+          x[d] += side * size[d];
+          mean += value(x, end_time * (k + 0.5) / n_times) / (2. * dim * n_times);
+        }
     return mean;
   }
 
