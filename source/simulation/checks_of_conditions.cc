@@ -267,6 +267,11 @@ namespace Talus
       warn("/Run", "Step size",
            sentence("it is ", step_size, ", but a signal crosses a cell in ", h / signal_speed,
                     ": steps as long as that are unstable. Take ", 0.4 * h / signal_speed, "."));
+    for (const auto &condition : model.boundary.conditions)
+      if (condition->end() - condition->start() < step_size)
+        warn(condition->get_section_name(), "End time",
+             sentence("the condition acts from ", condition->start(), " to ", condition->end(),
+                      ", which is less than a step of ", step_size, ": in one step, or in none."));
   }
 
 #define INSTANTIATE(dim)                                                                                               \

@@ -139,6 +139,10 @@ def case_idle(runs):
     warns("sideways", "the body 'block' falls along y", run=gravity, condition="set Type = velocity\n    set Boundary ids = 2\n    set Components = x")
     warns("walls", "the body 'block' falls along y", run=gravity, condition="set Type = slip\n    set Boundary ids = 0, 1", body="set Upper corner = 2, 1")
     warns("pulse_of_gravity", "the body 'block' falls along y", run="set Body force = 0; -10 * sin(1000 * pi * t)", condition="set Boundary ids = 0")
+    interval = "set Boundary ids = 2\n    set Type = slip\n    set Start time = 1e-4\n    set End time = "
+    warns("flash", "'End time' in section 'Conditions/floor': the condition acts from 0.0001 to 0.00015, which is less than a step",
+          condition=interval + "1.5e-4")
+    warns("long", condition=interval + "5e-2")
     warns("shaking", run="set Body force = 20 * sin(2000 * pi * t); 0", condition="set Boundary ids = 2")
     warns("level", r"'Surface level' in section 'Bodies/block': it is 5, but nothing lies above the body, which ends at y = 1: there the initial "
           r"stress is 4e\+04", **layer(5))
