@@ -1,5 +1,8 @@
 #include <talus/core/memory.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 namespace Talus
@@ -15,5 +18,12 @@ namespace Talus
     MPI_Comm_free(&machine);
     const double here = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
     return Utilities::MPI::sum(is_first ? here : 0., communicator);
+  }
+
+  void return_free_memory()
+  {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
   }
 } // namespace Talus

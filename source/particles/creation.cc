@@ -1,10 +1,7 @@
 #include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
 #include <talus/particles/amount.h>
 #include <talus/particles/particles.h>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <algorithm>
 #include <limits>
@@ -46,14 +43,6 @@ namespace Talus
                                "). Use one with 64-bit indices, or fewer particles."));
       }
       return wanted;
-    }
-
-    /** The handler's particles were many small pieces, which the C library would keep for later. */
-    void return_free_memory()
-    {
-#ifdef __GLIBC__
-      malloc_trim(0);
-#endif
     }
   } // namespace
 
@@ -130,7 +119,7 @@ namespace Talus
     sort();
     if (reach.at_corners)
       check_initial_corners(bodies);
-    return_free_memory();
+    return_free_memory(); // of the handler's particles
   }
 
   template <int dim>

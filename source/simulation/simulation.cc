@@ -2,6 +2,7 @@
 
 #include <talus/core/command_line.h>
 #include <talus/core/exceptions.h>
+#include <talus/core/memory.h>
 
 #include <iostream>
 
@@ -72,6 +73,7 @@ namespace Talus
     energy.start(report, current_totals().strain_energy);
     fracture.start(model);
     Checks<dim>(parameters, model, end_time).run(stepper->step_size(model, report), report.signal_speed, max_steps);
+    return_free_memory();
   }
 
   template <int dim>

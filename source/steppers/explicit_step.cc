@@ -5,6 +5,7 @@
 #include <talus/steppers/fastest_vibration.h>
 #include <talus/steppers/sweep.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -13,6 +14,13 @@
 namespace Talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** Particles that one sweep after the other looks at, so that what one has written the next finds in the cache. */
+    template <int dim>
+    constexpr unsigned int block = dim == 2 ? 1024 : 512;
+  } // namespace
 
   template <int dim>
   Explicit<dim>::Explicit(const std::string &section) : Stepper<dim>(section)
@@ -74,7 +82,8 @@ namespace Talus
     watch.emplace(model);
     const auto ranges = material_ranges(model.particles, /* dt = */ 0.);
     watch->start(ranges, /* time = */ 0., /* dt = */ 0.);
-    watch->look_at(0, model.particles.size());
+    for (unsigned int p = 0; p < model.particles.size(); p += block<dim>)
+      watch->look_at(p, std::min(p + block<dim>, model.particles.size()));
     return watch->finish(/* displacement = */ 0.);
   }
 
@@ -174,9 +183,8 @@ namespace Talus
     watch->start(ranges, time, dt);
     particles.start_relocation();
 
-    const unsigned int block        = dim == 2 ? 1024 : 512;
-    double             displacement = 0;
-    Sweep              sweep(*timing);
+    double displacement = 0;
+    Sweep  sweep(*timing);
     sweep.add(grid_to_particle, [&](const unsigned int begin, const unsigned int end) {
       displacement =
         std::max(displacement, model.transfer->grid_to_particle(model.grid, *model.kernel, dt, particles, begin, end));
@@ -184,13 +192,13 @@ namespace Talus
     if (is_musl)
     {
       musl.start(particles);
-      sweep.run(particles.size(), block);
+      sweep.run(particles.size(), block<dim>);
       const Timing::Scope scope(*timing, musl_section);
       musl.apply(model, time, dt);
     }
     if (model.f_bar.is_on)
     {
-      sweep.run(particles.size(), block);
+      sweep.run(particles.size(), block<dim>);
       const Timing::Scope scope(*timing, f_bar);
       model.f_bar.average_rate(dt, particles, model.grid);
     }
@@ -220,7 +228,7 @@ namespace Talus
       particles.relocate(begin, end);
       watch->look_at(begin, end);
     });
-    sweep.run(particles.size(), block);
+    sweep.run(particles.size(), block<dim>);
 
     const Timing::Scope scope(*timing, relocate);
     model.tractions.finish(particles);

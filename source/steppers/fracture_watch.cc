@@ -41,6 +41,25 @@ namespace Talus
     return std::pow(volume, 1. / dim);
   }
 
+  namespace
+  {
+    /** At least the square of the largest principal stretch, and that where F is diagonal: Gershgorin's for F F^T. */
+    template <int dim>
+    double bound_of_squares(const Tensor<2, dim> &F)
+    {
+      const Tensor<2, dim> b     = F * transpose(F);
+      double               bound = 0;
+      for (unsigned int i = 0; i < dim; ++i)
+      {
+        double sum = 0;
+        for (unsigned int j = 0; j < dim; ++j)
+          sum += std::abs(b[i][j]);
+        bound = std::max(bound, sum);
+      }
+      return bound;
+    }
+  } // namespace
+
   template <int dim>
   template <class Visitor>
   void FractureWatch<dim>::for_each_beyond(const Model<dim> &model, const double &least, const Visitor &visitor) const
@@ -49,13 +68,14 @@ namespace Talus
     const auto h = model.grid.smallest_spacing;
     for (unsigned int p = 0; p < model.particles.size(); ++p)
     {
-      // The largest principal stretch is at most the norm of F.
+      // The largest principal stretch is at most the norm of F, which a body at rest exceeds.
       const unsigned int b      = model.particles.body[p];
       double             square = 0;
       for (const double *component : F)
         square += component[p] * component[p];
       const double scale = least * reach * h / spacings[b];
-      if (square > scale * scale && is_solid[b])
+      if (square > scale * scale && is_solid[b] &&
+          bound_of_squares<dim>(model.particles.matrix(model.particles.F, p)) > scale * scale * (1 + 1e-12))
         visitor(p);
     }
   }
