@@ -6,8 +6,7 @@
 
 namespace Talus
 {
-  /** Where the particles were, for a second look with the kernels of that place. Test: tests/steppers, MUSL and F-bar.
-   */
+  /** Where the particles were, for a second look with the kernels of that place. Test: tests/steppers, MUSL. */
   template <int dim>
   class KeptPositions
   {
