@@ -137,9 +137,12 @@ namespace Talus
     Index      begin, end;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      // A jittered point strays from its lattice point by half a spacing at most.
-      begin[d] = std::clamp<double>(std::floor((corners.first[d] - lower[d]) / spacing[d] - 1), 0, counts[d]);
-      end[d]   = std::clamp<double>(std::ceil((corners.second[d] - lower[d]) / spacing[d] + 1), 0, counts[d]);
+      // A point strays from the middle of its box by the jitter, and by round-off.
+      const double stray = 0.5 * jitter + 1e-6;
+      const double first = (corners.first[d] - lower[d]) / spacing[d] - 0.5 - stray;
+      const double last  = (corners.second[d] - lower[d]) / spacing[d] - 0.5 + stray;
+      begin[d]           = std::clamp<double>(std::ceil(first), 0, counts[d]);
+      end[d]             = std::clamp<double>(std::floor(last) + 1, 0, counts[d]);
     }
     visit_range(begin, end, visitor);
   }
@@ -164,6 +167,7 @@ namespace Talus
     double volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       volume *= spacing[d];
+    const bool are_whole = edge_volumes == "whole";
 
     for (auto k = begin; k[dim - 1] < end[dim - 1];)
     {
@@ -176,7 +180,7 @@ namespace Talus
       }
       if (contains(x))
       {
-        const double share = edge_volumes == "whole" ? 1 : share_of_shape(k);
+        const double share = are_whole ? 1 : share_of_shape(k);
         if (jitter > 0)
           for (unsigned int d = 0; d < dim; ++d)
             x[d] += 0.5 * spacing[d] * jitter * hashed_jitter(seed, index, d);

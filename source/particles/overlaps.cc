@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace Talus
 {
@@ -81,43 +82,43 @@ namespace Talus
       return first;
     }
 
-    /** This rank's particles by boxes as wide as the grid's spacing; those at a lower face of a box in both. */
+    /**
+     * Calls visitor(members) for lists of this rank's particles: two that are less than `margin` grid spacings apart
+     * are in a list together. A list holds a box as wide as the grid's spacing, and may hold others.
+     */
     template <int dim, class Visitor>
     void for_each_box(const Particles<dim> &particles, const Grid<dim> &grid, const double margin,
                       const Visitor &visitor)
     {
-      using Box   = std::array<std::int64_t, dim>;
-      using Entry = std::pair<Box, unsigned int>;
-      std::vector<Entry> entries;
-      for (unsigned int p = 0; p < particles.size(); ++p)
-      {
-        const Tensor<1, dim>    x = particles.vector(particles.position, p);
-        Box                     box;
-        std::array<double, dim> rest;
+      const std::size_t n_lists   = std::max(particles.size(), 1u);
+      const auto        for_lists = [&](const unsigned int p, const auto &enter) {
+        std::array<std::int64_t, dim> box;
+        unsigned int                  lower_faces = 0; // bits of the axes
         for (unsigned int d = 0; d < dim; ++d)
         {
-          const double c = (x[d] - grid.lower[d]) * grid.inverse_spacing[d];
+          const double c = (particles.component(particles.position, d)[p] - grid.lower[d]) * grid.inverse_spacing[d];
           box[d]         = static_cast<std::int64_t>(std::floor(c));
-          rest[d]        = c - box[d];
+          lower_faces |= (c - box[d] < margin) << d;
         }
-        entries.emplace_back(box, p);
-        for (unsigned int d = 0; d < dim; ++d)
-          if (rest[d] < margin)
+        for (unsigned int shift = 0; shift < (1u << dim); ++shift)
+          if ((shift & lower_faces) == shift)
           {
-            Box before = box;
-            --before[d];
-            entries.emplace_back(before, p);
+            std::uint64_t number = 0; // neighbours along x have neighbouring lists, others hash
+            for (unsigned int d = dim; d-- > 0;)
+              number = number * 0x9e3779b97f4a7c15ull + static_cast<std::uint64_t>(box[d] - (shift >> d & 1));
+            enter(number % n_lists);
           }
-      }
-      std::sort(entries.begin(), entries.end());
-      std::vector<unsigned int> members;
-      for (std::size_t begin = 0, end; begin < entries.size(); begin = end)
-      {
-        members.clear();
-        for (end = begin; end < entries.size() && entries[end].first == entries[begin].first; ++end)
-          members.push_back(entries[end].second);
-        visitor(members);
-      }
+      };
+      std::vector<unsigned int> end(n_lists + 1, 0);
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        for_lists(p, [&](const std::size_t list) { ++end[list + 1]; });
+      std::partial_sum(end.begin(), end.end(), end.begin());
+      std::vector<unsigned int> members(end.back());
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        for_lists(p, [&](const std::size_t list) { members[end[list]++] = p; });
+      for (std::size_t list = 0, begin = 0; list < n_lists; begin = end[list++])
+        if (end[list] > begin + 1)
+          visitor(members.begin() + begin, members.begin() + end[list]);
     }
 
     /** Two particles at the same place: nearer than a millionth of a particle's size. */
@@ -130,32 +131,36 @@ namespace Talus
       const auto       reach = [&](const unsigned int p) {
         return near * std::min(std::pow(V[p], 1. / dim), grid.smallest_spacing);
       };
-      Pair<dim> first;
-      for_each_box(particles, grid, near, [&](std::vector<unsigned int> &members) {
-        std::sort(members.begin(), members.end(),
-                  [&](const unsigned int a, const unsigned int b) { return x[0][a] < x[0][b]; });
-        for (unsigned int i = 0; i < members.size(); ++i)
-          for (unsigned int k = i + 1; k < members.size(); ++k)
+      using Ids = std::pair<std::uint64_t, std::uint64_t>;
+      std::vector<std::pair<Ids, std::pair<unsigned int, unsigned int>>> twins;
+      const double                                                       farthest = near * grid.smallest_spacing;
+      for_each_box(particles, grid, near, [&](const auto begin, const auto end) {
+        std::sort(begin, end, [&](const unsigned int a, const unsigned int b) { return x[0][a] < x[0][b]; });
+        for (auto a = begin; a != end; ++a)
+          for (auto b = a + 1; b != end && x[0][*b] - x[0][*a] <= farthest; ++b)
           {
-            const unsigned int a = members[i], b = members[k];
-            const double       distance = std::min(reach(a), reach(b));
-            if (x[0][b] - x[0][a] > distance)
-              break;
             double square = 0;
             for (unsigned int d = 0; d < dim; ++d)
-              square += (x[d][a] - x[d][b]) * (x[d][a] - x[d][b]);
+              square += (x[d][*a] - x[d][*b]) * (x[d][*a] - x[d][*b]);
+            if (*a == *b || square > farthest * farthest)
+              continue;
+            const double distance = std::min(reach(*a), reach(*b));
             if (square > distance * distance)
               continue;
-            const auto [low, high] = std::minmax(particles.id[a], particles.id[b]);
-            if (low < first.id)
-            {
-              first          = pair_of(particles, low == particles.id[a] ? a : b, 0);
-              first.other    = particles.body[low == particles.id[a] ? b : a];
-              first.other_id = high;
-            }
-            ++first.number;
+            const bool is_ordered = particles.id[*a] < particles.id[*b];
+            const auto low = is_ordered ? *a : *b, high = is_ordered ? *b : *a;
+            twins.push_back({{particles.id[low], particles.id[high]}, {low, high}});
           }
       });
+      std::sort(twins.begin(), twins.end());
+      Pair<dim> first;
+      if (!twins.empty())
+      {
+        const auto &[ids, pair] = twins.front();
+        first                   = pair_of(particles, pair.first, particles.body[pair.second]);
+        first.other_id          = ids.second;
+        first.number            = std::unique(twins.begin(), twins.end()) - twins.begin();
+      }
       return first;
     }
 
