@@ -86,9 +86,12 @@ namespace Talus
 
     zero   = true;
     varies = false;
+    constant.reset();
+    bool is_constant = true;
     for (const auto &expression : list)
     {
-      zero = zero && (expression == "0" || expression == "0.");
+      is_constant = is_constant && !uses_variable(expression, "t") && expression.find("rand") == std::string::npos;
+      zero        = zero && (expression == "0" || expression == "0.");
       for (unsigned int d = 0; d < dim; ++d)
         varies = varies || uses_variable(expression, std::string(1, "xyz"[d]));
     }
@@ -108,6 +111,8 @@ namespace Talus
       throw EntryError(section, entry,
                        "cannot understand '" + as_given(expressions) + "': " + shortened(reason, 200) + ". Use " +
                          variables + ", pi, numbers, + - * / ^, (a > b ? c : d) and functions like sin, sqrt, min.");
+    if (is_constant && !varies)
+      constant = evaluate(Point<dim>(), 0.);
   }
 
   template <int dim>
@@ -129,6 +134,8 @@ namespace Talus
   template <int dim>
   Tensor<1, dim> ParsedVector<dim>::evaluate(const Point<dim> &x, const double time) const
   {
+    if (constant)
+      return *constant;
     Tensor<1, dim> v;
     parser->set_time(time);
     for (unsigned int d = 0; d < dim; ++d)

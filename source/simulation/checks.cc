@@ -87,12 +87,19 @@ namespace Talus
     constexpr double                               infinity  = std::numeric_limits<double>::infinity();
     const unsigned int                             n_bodies  = model.bodies.size();
     std::unordered_map<std::size_t, unsigned char> in_cell;
-    const auto                                     cell_of = [&](const unsigned int p) {
-      return model.grid.cell_number(Point<dim>(particles.vector(particles.position, p)));
+    // Particles of a cell and material stand together: the map is asked once for all of them.
+    std::size_t    cell   = 0;
+    unsigned char *n      = nullptr;
+    const auto     around = [&](const unsigned int p) -> unsigned char     &{
+      const std::size_t number = model.grid.cell_number(Point<dim>(particles.vector(particles.position, p)));
+      if (n == nullptr || number != cell)
+        n = &in_cell[number];
+      cell = number;
+      return *n;
     };
     for (unsigned int p = 0; p < particles.size(); ++p)
-      if (auto &n = in_cell[cell_of(p)]; n < 2)
-        ++n;
+      if (auto &number = around(p); number < 2)
+        ++number;
 
     // Lower corners, and upper corners with the other sign, so that all are minima.
     std::vector<double>        corners(2 * dim * n_bodies, infinity);
@@ -102,7 +109,7 @@ namespace Talus
       const unsigned int b    = particles.body[p];
       const double       half = 0.5 * std::pow(particles.component(particles.volume, 0)[p], 1. / dim);
       ++counts[2 * b];
-      counts[2 * b + 1] += in_cell[cell_of(p)] == 1;
+      counts[2 * b + 1] += around(p) == 1;
       for (unsigned int d = 0; d < dim; ++d)
       {
         const double x   = particles.component(particles.position, d)[p];

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace Talus
@@ -34,6 +35,7 @@ namespace Talus
     std::string                                  expressions, section, entry;
     bool                                         zero   = true;
     bool                                         varies = false;
+    std::optional<dealii::Tensor<1, dim>>        constant; // what it is everywhere and always
   };
 
   /**
