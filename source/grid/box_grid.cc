@@ -4,7 +4,6 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
-#include <iostream>
 #include <numeric>
 
 namespace Talus
@@ -67,20 +66,8 @@ namespace Talus
   {
     const unsigned int        refinements = common_refinements(lattice.n_cells);
     std::vector<unsigned int> coarse_counts(dim);
-    double                    n_coarse = 1;
     for (unsigned int d = 0; d < dim; ++d)
-    {
       coarse_counts[d] = lattice.n_cells[d] >> refinements;
-      n_coarse *= coarse_counts[d];
-    }
-    if (n_coarse > 1e5 && Utilities::MPI::this_mpi_process(communicator) == 0)
-    {
-      std::cerr << "Warning: every rank stores a coarse mesh of " << n_coarse
-                << " cells. Cell counts with a large common power of two avoid that, for example";
-      for (const int count : lattice.n_cells)
-        std::cerr << ' ' << (count + 8) / 16 * 16;
-      std::cerr << ".\n";
-    }
     GridGenerator::subdivided_hyper_rectangle(this->p4est, coarse_counts, lower, upper, true);
     this->p4est.refine_global(refinements);
   }

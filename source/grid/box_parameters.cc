@@ -3,7 +3,6 @@
 #include <talus/grid/box_grid.h>
 
 #include <iomanip>
-#include <iostream>
 #include <limits>
 #include <sstream>
 
@@ -111,7 +110,7 @@ namespace Talus
   }
 
   template <int dim>
-  void BoxGrid<dim>::check_memory() const
+  void BoxGrid<dim>::check_memory()
   {
     // What deal.II's triangulation and numbers of nodes take at least: measured on grids of a million cells.
     constexpr double bytes_per_cell = dim == 2 ? 600 : 1800;
@@ -128,24 +127,36 @@ namespace Talus
       n_coarse *= count / common;
     // Every rank stores the coarse mesh, besides its own cells.
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    this->remarks.clear();
     const double wanted = bytes_per_cell * std::max(n_cells, n_coarse * n_ranks), has = physical_memory(communicator);
     const std::string takes = "the grid's " + to_text(n_cells) + " cells take " + to_text(wanted / 1e9) +
                               " GB at least, and there are " + to_text(has / 1e9) + " GB of memory. ";
+    const std::string entry = spacings.empty() ? "Cells" : "Spacing";
     if (wanted > has)
-      throw EntryError(this->get_section_name(), spacings.empty() ? "Cells" : "Spacing", takes + coarser);
+      throw EntryError(this->get_section_name(), entry, takes + coarser);
     if (n_nodes > std::numeric_limits<types::global_dof_index>::max())
-      throw EntryError(this->get_section_name(), spacings.empty() ? "Cells" : "Spacing",
+      throw EntryError(this->get_section_name(), entry,
                        "the grid has " + to_text(n_nodes) +
                          " nodes, more than this deal.II can number. Use one with 64-bit indices. " + coarser);
-    if (wanted > has / 2 && Utilities::MPI::this_mpi_process(communicator) == 0)
-      std::cerr << "Warning: " << takes << '\n';
+    if (wanted > has / 2)
+      this->remarks.emplace_back(this->get_section_name(), entry, takes + coarser);
+    if (n_coarse > 1e5)
+    {
+      std::string better;
+      for (const int count : lattice.n_cells)
+        better += " " + std::to_string((count + 8) / 16 * 16);
+      this->remarks.emplace_back(this->get_section_name(), entry,
+                                 "every rank stores a coarse mesh of " + to_text(n_coarse) +
+                                   " cells. Numbers of cells with a large common power of two avoid that, for example" +
+                                   better + ".");
+    }
   }
 
 #define INSTANTIATE(dim)                                                                                               \
   template struct BoxTriangulation<dim>;                                                                               \
   template BoxGrid<dim>::BoxGrid(const std::string &, const Communicator &);                                           \
   template void        BoxGrid<dim>::parse_parameters(ParameterHandler &);                                             \
-  template void        BoxGrid<dim>::check_memory() const;                                                             \
+  template void        BoxGrid<dim>::check_memory();                                                                   \
   template std::string BoxGrid<dim>::extent() const;                                                                   \
   template std::string BoxGrid<dim>::summary() const;
   INSTANTIATE(2)

@@ -21,8 +21,10 @@ namespace Talus
 
   namespace
   {
+    /** Throws where the mesh does not fit into memory; what to tell where it hardly does. */
     template <int dim>
-    void check_memory(const std::vector<unsigned int> &boxes, const std::string &section, MPI_Comm communicator)
+    std::vector<EntryError> check_memory(const std::vector<unsigned int> &boxes, const std::string &section,
+                                         MPI_Comm communicator)
     {
       // What deal.II and the lists of stencils take at least: measured on meshes of .7 million triangles.
       constexpr double bytes_per_cell = dim == 2 ? 1000 : 1500;
@@ -38,6 +40,7 @@ namespace Talus
            << " GB at least, and there are " << has / 1e9 << " GB of memory. Take fewer.";
       if (wanted > has || n_nodes > std::numeric_limits<unsigned int>::max())
         throw EntryError(section, "Cells", text.str());
+      return wanted > has / 2 ? std::vector<EntryError>{{section, "Cells", text.str()}} : std::vector<EntryError>();
     }
   } // namespace
 
@@ -106,7 +109,7 @@ namespace Talus
     if (!problem.empty())
       throw EntryError(section, "File", problem);
     if (file.empty())
-      check_memory<dim>(cell_counts, section, this->communicator);
+      this->remarks = check_memory<dim>(cell_counts, section, this->communicator);
   }
 
   template <int dim>

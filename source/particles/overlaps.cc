@@ -11,8 +11,6 @@ namespace Talus
 
   namespace
   {
-    const std::string allowed = " Move or cut one of them; 'Allow overlap = true' in section 'Bodies' allows it.";
-
     /** Two particles, or a particle and a body, that are in each other's way: the first of all ranks counts. */
     template <int dim>
     struct Pair
@@ -61,7 +59,7 @@ namespace Talus
       return pair;
     }
 
-    /** A point of one body in the region of another. */
+    /** Points of one body in the region of another. */
     template <int dim>
     Pair<dim> find_in_regions(const Particles<dim> &particles, const std::vector<std::unique_ptr<Body<dim>>> &bodies)
     {
@@ -77,6 +75,35 @@ namespace Talus
             if (particles.id[p] < first.id)
               first = pair_of(particles, p, b);
           }
+      }
+      first.number = n;
+      return first;
+    }
+
+    /** Particles that reach into the region of another body by more than a tenth of their size, though not with their
+     * middle. */
+    template <int dim>
+    Pair<dim> find_across_surfaces(const Particles<dim>                          &particles,
+                                   const std::vector<std::unique_ptr<Body<dim>>> &bodies)
+    {
+      constexpr double share = 0.8; // of the way from the middle to a side: the rest is a tenth of the size
+      Pair<dim>        first;
+      std::uint64_t    n = 0;
+      for (unsigned int p = 0; bodies.size() > 1 && p < particles.size(); ++p)
+      {
+        const Point<dim> x(particles.vector(particles.position, p));
+        const auto      &own   = *bodies[particles.body[p]]->shape;
+        const auto       edges = own.half_edges(x, particles.component(particles.volume, 0)[p]);
+        for (unsigned int b = 0; b < bodies.size(); ++b)
+          for (unsigned int side = 0; b != particles.body[p] && side < 2 * dim; ++side)
+            if (const Point<dim> y = x + (side % 2 == 0 ? -share : share) * edges[side / 2];
+                bodies[b]->shape->covers(y) && own.covers(y))
+            {
+              ++n;
+              if (particles.id[p] < first.id)
+                first = pair_of(particles, p, b);
+              break;
+            }
       }
       first.number = n;
       return first;
@@ -163,72 +190,6 @@ namespace Talus
       }
       return first;
     }
-
-    /**
-     * Lists of points that fill the same space: the volumes of all lists, spread to the nodes as quadratic splines do,
-     * exceed those of the cells. Of equal points that fill a cell it is exactly one.
-     */
-    template <int dim>
-    class Filling
-    {
-    public:
-      Filling(const Particles<dim> &particles, const std::vector<bool> &is_list, const BoxGrid<dim> &grid) : grid(grid)
-      {
-        nodes.reinit(grid.nodes);
-        for (unsigned int p = 0; p < particles.size(); ++p)
-          if (is_list[particles.body[p]])
-            spread(particles.vector(particles.position, p), particles.component(particles.volume, 0)[p],
-                   particles.body[p]);
-        nodes.add_copies_to_owners();
-      }
-
-      /** The owned node with most that has points of several bodies, and how often it is filled. */
-      std::pair<double, Tensor<1, dim>> fullest() const
-      {
-        std::pair<double, Tensor<1, dim>> result;
-        double                            cell = 1;
-        for (const double h : grid.spacing)
-          cell *= h;
-        for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        {
-          const double V = nodes[i][0], mean = nodes[i][1] / V, square = nodes[i][2] / V;
-          if (square - mean * mean > 0.05 && V / cell > result.first)
-            result = {V / cell, grid.node_position(i)};
-        }
-        return result;
-      }
-
-    private:
-      void spread(const Tensor<1, dim> &x, const double volume, const unsigned int body)
-      {
-        grid.for_each_around(x, [&](const unsigned int node, const double weight) {
-          const double w = volume * weight;
-          nodes[node][0] += w;
-          nodes[node][1] += w * body;
-          nodes[node][2] += w * body * body;
-        });
-      }
-
-      const BoxGrid<dim> &grid;
-      NodalArray<4>       nodes; // volume, times body, times its square
-    };
-
-    /** Names of the lists that have points within a spacing and a half of x. */
-    template <int dim>
-    std::vector<unsigned int> lists_around(const Particles<dim> &particles, const std::vector<bool> &is_list,
-                                           const Tensor<1, dim> &x, const Grid<dim> &grid)
-    {
-      std::vector<unsigned int> has_points(is_list.size(), 0);
-      for (unsigned int p = 0; p < particles.size(); ++p)
-        if ((particles.vector(particles.position, p) - x).norm() < 1.5 * grid.largest_spacing)
-          has_points[particles.body[p]] = is_list[particles.body[p]];
-      Utilities::MPI::max(has_points, grid.communicator, has_points);
-      std::vector<unsigned int> bodies;
-      for (unsigned int b = 0; b < has_points.size(); ++b)
-        if (has_points[b] > 0)
-          bodies.push_back(b);
-      return bodies;
-    }
   } // namespace
 
   template <int dim>
@@ -239,50 +200,37 @@ namespace Talus
   }
 
   template <int dim>
+  void Overlaps<dim>::refuse(const Body<dim> &body, const std::string &message)
+  {
+    throw EntryError(body.get_section_name(), body.shape->position_entry(),
+                     message + " Move or cut one of them; 'Allow overlap = true' in section 'Bodies' allows it.");
+  }
+
+  template <int dim>
   void Overlaps<dim>::check(const Particles<dim> &particles, const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                             const Grid<dim> &grid) const
   {
     if (are_allowed)
       return;
-    const auto blame = [&](const unsigned int b, const std::string &message) {
-      throw EntryError(bodies[b]->get_section_name(), bodies[b]->shape->position_entry(), message + allowed);
+    const auto blame = [&](const Pair<dim> &found, const std::string &what) {
+      const auto pair = first_of_all(found, grid.communicator);
+      if (pair.is_found())
+        refuse(*bodies[pair.body], "the bodies '" + bodies[pair.body]->name + "' and '" + bodies[pair.other]->name +
+                                     "' overlap: " + std::to_string(pair.number) + what + pair.place() + ".");
     };
-    const auto inside = first_of_all(find_in_regions(particles, bodies), grid.communicator);
-    if (inside.is_found())
-      blame(inside.body, "the bodies '" + bodies[inside.body]->name + "' and '" + bodies[inside.other]->name +
-                           "' overlap: " + std::to_string(inside.number) +
-                           " points of one lie in the other, the first at " + inside.place() + ".");
+    blame(find_in_regions(particles, bodies), " points of one lie in the other, the first at ");
+    blame(find_across_surfaces(particles, bodies), " particles of one reach into the other, the first at ");
     const auto twins = first_of_all(find_twins(particles, grid), grid.communicator);
     if (twins.is_found())
     {
       const auto name = [&](const unsigned int b, const std::uint64_t id) {
         return std::to_string(id - bodies[b]->first_id + 1) + " of '" + bodies[b]->name + "'";
       };
-      blame(twins.body, "the points number " + name(twins.body, twins.id) + " and " +
-                          name(twins.other, twins.other_id) + " lie at the same place, " + twins.place() + ", and " +
-                          std::to_string(twins.number - 1) + " more pairs do.");
+      refuse(*bodies[twins.body], "the points number " + name(twins.body, twins.id) + " and " +
+                                    name(twins.other, twins.other_id) + " lie at the same place, " + twins.place() +
+                                    ", and " + std::to_string(twins.number - 1) + " more pairs do.");
     }
-
-    std::vector<bool> is_list;
-    for (const auto &body : bodies)
-      is_list.push_back(body->shape->is_list());
-    // Sums at nodes of a box tell how full it is.
-    const auto box = dynamic_cast<const BoxGrid<dim> *>(&grid);
-    if (box == nullptr || std::count(is_list.begin(), is_list.end(), true) < 2)
-      return;
-    // A row of particles that two lists share fills nodes 1.4-fold, jitter and meshes 1.1-fold.
-    constexpr double most    = 1.3;
-    auto             fullest = Filling<dim>(particles, is_list, *box).fullest();
-    for (const auto &other : Utilities::MPI::all_gather(grid.communicator, fullest))
-      if (other.first > fullest.first)
-        fullest = other;
-    if (fullest.first <= most)
-      return;
-    const auto around = lists_around(particles, is_list, fullest.second, grid);
-    if (around.size() > 1)
-      blame(around[1], "the bodies '" + bodies[around[0]]->name + "' and '" + bodies[around[1]]->name +
-                         "' overlap: their points fill the space around " + to_text(fullest.second) + " " +
-                         std::to_string(fullest.first) + "-fold.");
+    check_lists(particles, bodies, grid);
   }
 
   template class Overlaps<2>;

@@ -32,6 +32,8 @@ namespace Talus
     log.open(output.directory() + "/log.txt", goes_on ? std::ios::app : std::ios::out);
     log << date() << " started on " << host.data() << " in '" << std::filesystem::current_path().string() << "', "
         << Utilities::MPI::n_mpi_processes(communicator) << " rank(s): " << origin << std::endl;
+    for (unsigned int k = 0; k < n_told; ++k)
+      log << warning_line(parameters.warnings()[k]);
   }
 
   template <int dim>

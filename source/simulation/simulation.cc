@@ -68,6 +68,9 @@ namespace Talus
   void Simulation<dim>::set_up()
   {
     const Timing::Scope scope(timing, timing.add("set-up"));
+    for (const auto &remark : model.grid.remarks)
+      parameters.warn(remark);
+    tell_warnings(); // the system may end a run that takes its memory
     model.create([this] { references.start(model); });
     report = stepper->start(model, timing);
     energy.start(report, current_totals().strain_energy);
@@ -193,8 +196,7 @@ namespace Talus
     }
     checkpoints.start(output.directory(), now, communicator);
     say(summary());
-    for (const auto &warning : parameters.warnings())
-      say_warning(warning);
+    tell_warnings();
     progress = std::make_unique<Progress>(communicator, end_time, model.particles.n_global);
   }
 
@@ -250,7 +252,14 @@ namespace Talus
   {
     if (progress)
       progress->end_line();
-    say("warning: " + shortened(text, 1000) + '\n');
+    say(warning_line(text));
+  }
+
+  template <int dim>
+  void Simulation<dim>::tell_warnings()
+  {
+    for (; n_told < parameters.warnings().size(); ++n_told)
+      say_warning(parameters.warnings()[n_told]);
   }
 
   template <int dim>

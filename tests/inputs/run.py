@@ -144,6 +144,13 @@ def case_overlap(runs):
     refused(runs, "twice", "overlap.prm", twice, "bodies 'a' and 'b' overlap|bodies 'b' and 'a' overlap", r"\d+ points of one lie in the other",
             "Allow overlap = true")
     refused(runs, "partly", "overlap.prm", ["Bodies/a/Lower corner = 0.7, 0", "Bodies/a/Upper corner = 0.95, 0.5"], "overlap")
+    # By a quarter of a particle, too little for a point to lie in the other; and by round-off.
+    for name, upper, said in (("barely", 0.9039, "particles of one reach into the other"), ("touching", 0.9 + 1e-12, "")):
+        settings = ["Bodies/a/Lower corner = 0.7, 0", f"Bodies/a/Upper corner = {upper!r}, 0.5", "Run/End time = 2e-3"]
+        if said:
+            refused(runs, name, "overlap.prm", settings, said)
+        else:
+            runs.run("overlap.prm", name, *settings)
     directory = runs.run("overlap.prm", "allowed", *twice, "Bodies/Allow overlap = true", "Run/End time = 2e-3")
     runs.check("allowed", len(last_particles(directory)) - sum(map(len, together.values())), 0.5)
 

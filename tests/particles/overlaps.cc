@@ -84,6 +84,14 @@ void overlaps()
   refused<dim>("lists of points at the same places", list_of_points<dim>("list_c", 0.5, 8, 0.0625),
                list_of_points<dim>("list_d", 0.5, 8, 0.0625), "lie at the same place");
 
+  refused<dim>("a box a fifth of a particle deep in another", first,
+               box_between<dim>({{0.9875, 0.25, 0.25}}, {{1.5, 1, 1}}), "particles of one reach into the other");
+  refused<dim>("the same place, in cells that meet at a corner",
+               list_of_points<dim>("corner_a", 1 - 0.01 - 1e-9, 1, 0.02),
+               list_of_points<dim>("corner_b", 1 - 0.01 + 1e-9, 1, 0.02), "lie at the same place");
+
+  taken<dim>("a box a twentieth of a particle deep in another", first,
+             box_between<dim>({{1 - 0.0625 / 20, 0.25, 0.25}}, {{1.5, 1, 1}}));
   taken<dim>("boxes that touch", first, box_between<dim>({{1, 0.25, 0.25}}, {{1.5, 1, 1}}));
   taken<dim>("boxes that touch, jittered", box_between<dim>({{0.25, 0.25, 0.25}}, {{1, 1, 1}}, set("Jitter", "1")),
              box_between<dim>({{1, 0.25, 0.25}}, {{1.5, 1, 1}}, set("Jitter", "1")));

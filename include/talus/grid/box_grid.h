@@ -180,7 +180,7 @@ namespace Talus
 
     /** Throws EntryError where the cells need more memory than there is, and says what much of it they need.
      * Collective. */
-    void check_memory() const;
+    void check_memory();
 
     void create_triangulation();
     void share_out(const CellWeight &weight);

@@ -66,9 +66,11 @@ namespace Talus
     Totals<dim> current_totals();
 
     /** Writes to the terminal and the log; rank 0. */
-    void        say(const std::string &text);
-    void        say_warning(const std::string &text);
-    std::string summary() const;
+    void               say(const std::string &text);
+    void               say_warning(const std::string &text);
+    void               tell_warnings();
+    static std::string warning_line(const std::string &text) { return "warning: " + shortened(text, 1000) + '\n'; }
+    std::string        summary() const;
 
     const Communicator communicator;
     Parameters        &parameters;
@@ -77,6 +79,7 @@ namespace Talus
     unsigned int       output_section, reference_section, checkpoint_section; // of it
     std::ofstream      log;
     std::string        origin;           // of the run, for the log
+    unsigned int       n_told   = 0;     // of the warnings before the first step
     bool               is_alone = false; // in an error that other ranks have not met
 
     Model<dim>                    model;
