@@ -64,7 +64,7 @@ def case_sizes(runs):
             r"entry 'Particles' in section 'Bodies/block': the particles of all bodies.* GB at least, and there are .* GB")
     refused(runs, "mesh", write(runs, "mesh.prm", on_mesh(text_of(2), 2)), ["Grid/Cells = 200000, 200000"], r"entry 'Cells' in section 'Grid': the mesh's .* cells take .* GB")
     warned(runs, "odd", write(runs, "odd.prm", text_of(2)), ["Grid/Upper corner = 50.125, 50.125"],
-           r"entry 'Spacing' in section 'Grid': every rank stores a coarse mesh of 1.61e\\+05 cells. .* for example 400 400\.")
+           r"entry 'Spacing' in section 'Grid': every rank stores a coarse mesh of 1.61e\+05 cells. .* for example 400 400\.")
     coarse = write(runs, "coarse.prm", text_of(2, body=ring + "1, 4"))
     warned(runs, "coarse", coarse, [], "'Particles' in section 'Bodies/block': the largest particle has the volume 0.6")
     refused(runs, "step", write(runs, "step.prm", text_of(2)), ["Run/Step size = 1e-300"], "entry 'Step size' in section 'Run': steps of 1e-300 are lost in the round-off")
