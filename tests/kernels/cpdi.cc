@@ -41,65 +41,92 @@ namespace
         sum += (c >> e & 1 ? 1. : -1.) * hat(corner<dim>(x, r, c)) * area(e) / (V * (1u << (dim - 1)));
     return sum;
   }
-} // namespace
 
-/** Sheared and stretched domains: the sums that every kernel needs, and each node against the definition. */
-template <int dim>
-void cpdi()
-{
-  Setup<dim>      setup(skewed_grid<dim>({{6, 5, 4}}) + section("Kernel", set("Type", "CPDI") + set("Layers", "4")));
-  const auto     &lattice = setup.grid.lattice;
-  WorkingSet<dim> set;
-  setup.kernel->add_fields(set);
-  const unsigned int field = Corners<dim>::add_field(set);
-  set.resize(1);
-
-  double                                 unity = 0, position = 0, gradients = 0, identity = 0, values = 0, slopes = 0;
-  unsigned int                           n_small = 0, n_large = 0;
-  std::mt19937                           random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  while (n_small < 300 || n_large < 20)
+  template <int dim>
+  struct Domain
   {
-    // Some domains are so long that their nodes are not merged.
-    const bool             is_long = n_small >= 300;
     dealii::Point<dim>     x;
-    Edges<dim>             r0;
+    Edges<dim>             r0, r; // at first, and now
     dealii::Tensor<2, dim> F;
+  };
+
+  /** Anywhere in the grid, sheared and stretched, and stretched much if `is_long`. */
+  template <int dim>
+  Domain<dim> random_domain(const Lattice<dim> &lattice, const bool is_long, std::mt19937 &random)
+  {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Domain<dim>                            domain;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      x[d]     = lattice.origin[d] + lattice.h[d] * lattice.n_cells[d] * 0.5 * (1 + uniform(random));
-      r0[d][d] = 0.5 * lattice.h[d];
+      domain.x[d]     = lattice.origin[d] + lattice.h[d] * lattice.n_cells[d] * 0.5 * (1 + uniform(random));
+      domain.r0[d][d] = 0.5 * lattice.h[d];
       for (unsigned int e = 0; e < dim; ++e)
-        F[d][e] = (d == e ? 1. : 0.) + 0.5 * uniform(random);
+        domain.F[d][e] = (d == e ? 1. : 0.) + 0.5 * uniform(random);
     }
     if (is_long)
-      F[0] *= 5;
-    Edges<dim> r;
-    bool       is_inside = determinant(F) > 0.1;
+      domain.F[0] *= 5;
     for (unsigned int e = 0; e < dim; ++e)
-      r[e] = F * r0[e];
+      domain.r[e] = domain.F * domain.r0[e];
+    return domain;
+  }
+
+  /** Whether it may be: not inside out, nor beyond the grid. */
+  template <int dim>
+  bool is_good(const Lattice<dim> &lattice, const Domain<dim> &domain)
+  {
+    bool is_inside = determinant(domain.F) > 0.1;
     for (unsigned int c = 0; c < 1u << dim; ++c)
       for (unsigned int d = 0; d < dim; ++d)
-        is_inside = is_inside && lattice.is_inside(lattice.coordinate(corner<dim>(x, r, c)[d], d), d);
-    if (!is_inside)
-      continue;
-    ++(is_long ? n_large : n_small);
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      set.component(set.position, d)[0] = x[d];
-      for (unsigned int e = 0; e < dim; ++e)
-      {
-        set.component(field, dim * e + d)[0] = r0[e][d];
-        set.component(set.F, dim * d + e)[0] = F[d][e];
-      }
-    }
-    Stencil<dim> stencil;
-    setup.kernel->evaluate(set, 0, 1, &stencil);
+        is_inside = is_inside && lattice.is_inside(lattice.coordinate(corner<dim>(domain.x, domain.r, c)[d], d), d);
+    return is_inside;
+  }
 
-    double                                                            sum = 0;
-    dealii::Tensor<1, dim>                                            mean, sum_gradient;
-    dealii::Tensor<2, dim>                                            moment;
-    std::map<unsigned int, std::pair<double, dealii::Tensor<1, dim>>> nodes;
+  /** Stencils of one particle. */
+  template <int dim>
+  class DomainSetup : public Setup<dim>
+  {
+  public:
+    DomainSetup() :
+      Setup<dim>(skewed_grid<dim>({{6, 5, 4}}) +
+                 section("Kernel", Test::set("Type", "CPDI") + Test::set("Layers", "4")))
+    {
+      this->kernel->add_fields(set);
+      field = Corners<dim>::add_field(set);
+      set.resize(1);
+    }
+
+    Stencil<dim> at(const Domain<dim> &domain)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        set.component(set.position, d)[0] = domain.x[d];
+        for (unsigned int e = 0; e < dim; ++e)
+        {
+          set.component(field, dim * e + d)[0] = domain.r0[e][d];
+          set.component(set.F, dim * d + e)[0] = domain.F[d][e];
+        }
+      }
+      Stencil<dim> stencil;
+      this->kernel->evaluate(set, 0, 1, &stencil);
+      return stencil;
+    }
+
+  private:
+    WorkingSet<dim> set;
+    unsigned int    field;
+  };
+
+  struct DomainErrors
+  {
+    double unity = 0, position = 0, gradients = 0, identity = 0, values = 0, slopes = 0;
+  };
+
+  template <int dim>
+  void look_at_sums(const Lattice<dim> &lattice, const Stencil<dim> &stencil, DomainErrors &errors)
+  {
+    double                 sum = 0;
+    dealii::Tensor<1, dim> mean, sum_gradient;
+    dealii::Tensor<2, dim> moment;
     for (unsigned int k = 0; k < stencil.size; ++k)
     {
       dealii::Tensor<1, dim> offset, gradient;
@@ -112,14 +139,26 @@ void cpdi()
       mean += stencil.weight[k] * offset;
       sum_gradient += gradient;
       moment += outer_product(offset, gradient);
+    }
+    raise(errors.unity, sum - 1);
+    raise(errors.position, mean.norm());
+    raise(errors.gradients, sum_gradient.norm() * lattice.h[0]);
+    raise(errors.identity, (moment - dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>())).norm());
+  }
+
+  /** Each node against the definition; several entries of a stencil may be of one node. */
+  template <int dim>
+  void look_at_nodes(const Lattice<dim> &lattice, const Domain<dim> &domain, const Stencil<dim> &stencil,
+                     DomainErrors &errors)
+  {
+    std::map<unsigned int, std::pair<double, dealii::Tensor<1, dim>>> nodes;
+    for (unsigned int k = 0; k < stencil.size; ++k)
+    {
       auto &node = nodes[stencil.place[k]];
       node.first += stencil.weight[k];
-      node.second += gradient;
+      for (unsigned int d = 0; d < dim; ++d)
+        node.second[d] += stencil.gradient[d][k];
     }
-    raise(unity, sum - 1);
-    raise(position, mean.norm());
-    raise(gradients, sum_gradient.norm() * lattice.h[0]);
-    raise(identity, (moment - dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>())).norm());
     for (const auto &[place, found] : nodes)
     {
       const auto index = lattice.table_entry(place);
@@ -131,17 +170,40 @@ void cpdi()
       };
       double expected = 0;
       for (unsigned int c = 0; c < 1u << dim; ++c)
-        expected += hat(corner<dim>(x, r, c)) / (1u << dim);
-      raise(values, found.first - expected);
-      raise(slopes, (found.second - surface_integral<dim>(x, r, hat)).norm() * lattice.h[0]);
+        expected += hat(corner<dim>(domain.x, domain.r, c)) / (1u << dim);
+      raise(errors.values, found.first - expected);
+      raise(errors.slopes, (found.second - surface_integral<dim>(domain.x, domain.r, hat)).norm() * lattice.h[0]);
     }
   }
-  check("partition of unity", unity, 1e-12);
-  check("sum phi x_i = x_p", position, 1e-12);
-  check("sum of gradients", gradients, 1e-12);
-  check("sum x_i (x) grad phi = I", identity, 1e-12);
-  check("mean of the hats at the corners", values, 1e-14);
-  check("gradient by the divergence theorem", slopes, 1e-12);
+} // namespace
+
+/** Sheared and stretched domains: the sums that every kernel needs, and each node against the definition. */
+template <int dim>
+void cpdi()
+{
+  DomainSetup<dim> setup;
+  const auto      &lattice = setup.grid.lattice;
+  DomainErrors     errors;
+  unsigned int     n_small = 0, n_large = 0;
+  std::mt19937     random(3);
+  while (n_small < 300 || n_large < 20)
+  {
+    // Some domains are so long that their nodes are not merged.
+    const bool is_long = n_small >= 300;
+    const auto domain  = random_domain(lattice, is_long, random);
+    if (!is_good(lattice, domain))
+      continue;
+    ++(is_long ? n_large : n_small);
+    const auto stencil = setup.at(domain);
+    look_at_sums(lattice, stencil, errors);
+    look_at_nodes(lattice, domain, stencil, errors);
+  }
+  check("partition of unity", errors.unity, 1e-12);
+  check("sum phi x_i = x_p", errors.position, 1e-12);
+  check("sum of gradients", errors.gradients, 1e-12);
+  check("sum x_i (x) grad phi = I", errors.identity, 1e-12);
+  check("mean of the hats at the corners", errors.values, 1e-14);
+  check("gradient by the divergence theorem", errors.slopes, 1e-12);
 }
 
 template void cpdi<2>();

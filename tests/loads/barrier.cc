@@ -82,79 +82,102 @@ void nearest_points()
   check("gradient of the distance", gradient_error, 1e-4);
 }
 
-/** Distances of many points from a box in closed form, within and without, from a ball, and from facets of it. */
-template <int dim>
-void contact_surfaces()
+namespace
 {
-  const auto make = [](const std::string &type, const std::string &entries) {
+  template <int dim>
+  std::unique_ptr<ContactSurface<dim>> contact_surface(const std::string &type, const std::string &entries)
+  {
     Parameters parameters = Parameters::from_text(section("Contacts", section("c", set("Surface", type) + entries)));
     auto       surface    = parameters.make<ContactSurface<dim>>("/Contacts/c", "Surface", "box", "");
     parameters.parse();
     return surface;
-  };
-  const unsigned int               n = 3000;
-  std::vector<std::vector<double>> columns(dim, std::vector<double>(n));
-  std::array<const double *, dim>  x;
-  const auto                       point = [&](const unsigned int p) {
-    Point<dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = columns[d][p];
-    return result;
-  };
-  for (unsigned int d = 0; d < dim; ++d)
-  {
-    x[d] = columns[d].data();
-    for (unsigned int p = 0; p < n; ++p)
-      columns[d][p] = 1.5 * hashed_jitter(2, p, d);
   }
-  const auto compare = [&](const std::string &name, const ContactSurface<dim> &surface, const double reach,
-                           const auto &signed_distance, const double bound) {
-    std::vector<Near<dim>> near;
-    surface.find(x, 0, n, near);
-    std::vector<bool> is_found(n, false);
-    double            error = 0, slope = 0;
-    unsigned int      wrong = 0;
-    for (const auto &one : near)
+
+  /** Points without a pattern, in columns as particles have them. */
+  template <int dim>
+  class ManyPoints
+  {
+  public:
+    ManyPoints() : columns(dim, std::vector<double>(n))
     {
-      const double exact = signed_distance(point(one.p));
-      is_found[one.p]    = true;
-      raise(error, one.distance - std::abs(exact));
-      // Along the normal the distance grows.
-      raise(slope, std::abs(signed_distance(point(one.p) + 1e-7 * one.normal)) - std::abs(exact) - 1e-7);
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        x[d] = columns[d].data();
+        for (unsigned int p = 0; p < n; ++p)
+          columns[d][p] = 1.5 * hashed_jitter(2, p, d);
+      }
     }
-    for (unsigned int p = 0; p < n; ++p)
+
+    /** What a surface finds near it and inside, against its distance in closed form. */
+    template <class SignedDistance>
+    void compare(const std::string &name, const ContactSurface<dim> &surface, const double reach,
+                 const SignedDistance &signed_distance, const double bound) const
     {
-      const double exact = signed_distance(point(p));
-      wrong += is_found[p] != (std::abs(exact) < reach) && std::abs(std::abs(exact) - reach) > bound;
-      wrong += surface.contains(point(p)) != (exact < 0) && std::abs(exact) > bound;
+      std::vector<Near<dim>> near;
+      surface.find(x, 0, n, near);
+      std::vector<bool> is_found(n, false);
+      double            error = 0, slope = 0;
+      unsigned int      wrong = 0;
+      for (const auto &one : near)
+      {
+        const double exact = signed_distance(point(one.p));
+        is_found[one.p]    = true;
+        raise(error, one.distance - std::abs(exact));
+        // Along the normal the distance grows.
+        raise(slope, std::abs(signed_distance(point(one.p) + 1e-7 * one.normal)) - std::abs(exact) - 1e-7);
+      }
+      for (unsigned int p = 0; p < n; ++p)
+      {
+        const double exact = signed_distance(point(p));
+        wrong += is_found[p] != (std::abs(exact) < reach) && std::abs(std::abs(exact) - reach) > bound;
+        wrong += surface.contains(point(p)) != (exact < 0) && std::abs(exact) > bound;
+      }
+      check(name + ": distances", error, bound);
+      check(name + ": normals", slope, std::max(1e-9, 1e-7 * std::sqrt(bound)));
+      check(name + ": found, or inside, where it is not", wrong, 0.);
+      check_true(name + ": some are near", near.size() > 100);
     }
-    check(name + ": distances", error, bound);
-    check(name + ": normals", slope, std::max(1e-9, 1e-7 * std::sqrt(bound)));
-    check(name + ": found, or inside, where it is not", wrong, 0.);
-    check_true(name + ": some are near", near.size() > 100);
+
+  private:
+    Point<dim> point(const unsigned int p) const
+    {
+      Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = columns[d][p];
+      return result;
+    }
+
+    static constexpr unsigned int    n = 3000;
+    std::vector<std::vector<double>> columns;
+    std::array<const double *, dim>  x;
   };
 
-  Point<dim> a, b;
-  for (unsigned int d = 0; d < dim; ++d)
+  constexpr std::array<double, 3> box_lower = {{-1, -0.5, -0.75}}, box_upper = {{0.75, 1, 0.5}};
+
+  template <int dim>
+  double distance_from_box(const Point<dim> &y)
   {
-    a[d] = std::array<double, 3>{{-1, -0.5, -0.75}}[d];
-    b[d] = std::array<double, 3>{{0.75, 1, 0.5}}[d];
-  }
-  const auto of_box = [&](const Point<dim> &y) {
     double outside = 0, inside = -10;
     for (unsigned int d = 0; d < dim; ++d)
     {
-      const double beyond = std::max(a[d] - y[d], y[d] - b[d]);
+      const double beyond = std::max(box_lower[d] - y[d], y[d] - box_upper[d]);
       outside += std::pow(std::max(beyond, 0.), 2);
       inside = std::max(inside, beyond);
     }
     return outside > 0 ? std::sqrt(outside) : inside;
-  };
-  const std::string corners = set("Lower corner", coordinates<dim>({{-1, -0.5, -0.75}})) +
-                              set("Upper corner", coordinates<dim>({{0.75, 1, 0.5}}));
-  auto box = make("box", corners);
+  }
+} // namespace
+
+/** Distances of many points from a box in closed form, within and without, from a ball, and from facets of it. */
+template <int dim>
+void contact_surfaces()
+{
+  const ManyPoints<dim> points;
+  const std::string     corners =
+    set("Lower corner", coordinates<dim>(box_lower)) + set("Upper corner", coordinates<dim>(box_upper));
+  auto box = contact_surface<dim>("box", corners);
   box->create(0.25);
-  compare("box", *box, 0.25, of_box, 1e-14);
+  points.compare("box", *box, 0.25, distance_from_box<dim>, 1e-14);
 
   // The same box as the boundary of a mesh, whose faces belong to several ranks.
   Parameters parameters =
@@ -163,21 +186,21 @@ void contact_surfaces()
   Model<dim> model(parameters, MPI_COMM_WORLD);
   parameters.parse();
   model.create();
-  auto boundary = make("mesh", "");
+  auto boundary = contact_surface<dim>("mesh", "");
   boundary->attach(model.grid);
   boundary->create(0.25);
-  compare("boundary of a mesh", *boundary, 0.25, of_box, 1e-14);
+  points.compare("boundary of a mesh", *boundary, 0.25, distance_from_box<dim>, 1e-14);
 
   const auto of_ball = [](const Point<dim> &y) { return y.norm() - 0.8; };
-  auto       ball    = make("ball", set("Radius", "0.8"));
+  auto       ball    = contact_surface<dim>("ball", set("Radius", "0.8"));
   ball->create(0.3);
-  compare("ball", *ball, 0.3, of_ball, 1e-14);
+  points.compare("ball", *ball, 0.3, of_ball, 1e-14);
   if constexpr (dim == 3)
   {
     const TemporaryFile file(".stl", stl_text(sphere_surface(Point<3>(), 0.8, 24)));
-    auto                facets = make("surface", set("File", file.name));
+    auto                facets = contact_surface<dim>("surface", set("File", file.name));
     facets->create(0.3);
-    compare("facets", *facets, 0.3, of_ball, 0.8 * 1.5 / (24 * 24));
+    points.compare("facets", *facets, 0.3, of_ball, 0.8 * 1.5 / (24 * 24));
   }
 }
 

@@ -1,8 +1,4 @@
-#include "../check.h"
-#include "meshes.h"
-
-#include <talus/kernels/mesh/c1_umls.h>
-#include <talus/kernels/mesh/p1.h>
+#include "mesh_kernels.h"
 
 using namespace Talus;
 
@@ -10,91 +6,13 @@ namespace
 {
   using namespace Test;
 
-  /** A kernel on a mesh. */
   template <int dim>
-  struct Kernel
-  {
-    std::string                                                                                 name;
-    std::function<void(const unsigned int cell, const Coordinates<dim> &x, Stencil<dim> &list)> evaluate;
-  };
-
-  template <class Weight, int dim>
-  Kernel<dim> umls_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
-  {
-    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
-              const MeshPoint<dim> point{c, x};
-              umls<Weight>(mesh, 1, &point, options, &list);
-            }};
-  }
-
-  template <class Weight, int dim>
-  Kernel<dim> c1_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
-  {
-    return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
-                                                                  Stencil<dim> &list) {
-              const MeshPoint<dim> point{c, x};
-              c1_umls<Weight>(mesh, feet.data(), 1, &point, options, &list);
-            }};
-  }
-
-  template <int dim>
-  Kernel<dim> p1_kernel(const Mesh<dim> &mesh)
-  {
-    return {"P1", [&mesh](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
-              p1(mesh, c, x.data(), list);
-            }};
-  }
-
-  constexpr auto global = UmlsOptions::Support::global, local = UmlsOptions::Support::local;
-
-  template <int dim>
-  std::vector<Kernel<dim>> paper_kernels(const Mesh<dim> &mesh)
-  {
-    return {umls_kernel<CubicWeight>("cubic, local", mesh, {local, true}),
-            umls_kernel<CubicWeight>("cubic, global", mesh, {global, true}),
-            umls_kernel<QuadraticWeight>("quadratic, local", mesh, {local, true}),
-            umls_kernel<QuadraticWeight>("quadratic, global", mesh, {global, true})};
-  }
-
-  template <int dim>
-  std::vector<Kernel<dim>> c1_kernels(const Mesh<dim> &mesh)
-  {
-    return {c1_kernel<CubicWeight>("C1, cubic, local", mesh, {local, true}),
-            c1_kernel<CubicWeight>("C1, cubic, global", mesh, {global, true}),
-            c1_kernel<QuadraticWeight>("C1, quadratic, local", mesh, {local, true})};
-  }
-
-  /** A stencil by node. */
-  template <int dim>
-  struct Values
-  {
-    Values(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int cell, const Coordinates<dim> &x) :
-      weight(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
-    {
-      static Stencil<dim> list;
-      kernel.evaluate(cell, x, list);
-      for (unsigned int k = 0; k < list.size; ++k)
-      {
-        weight[list.place[k]] += list.weight[k];
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          gradient[list.place[k]][d] += list.gradient[d][k];
-          raise(offset_error, list.offset[d][k] - (mesh.position[list.place[k]][d] - x[d]));
-        }
-      }
-    }
-    std::vector<double>           weight;
-    std::vector<Coordinates<dim>> gradient;
-    double                        offset_error = 0;
-  };
-
-  template <int dim>
-  void check_reproduction(const std::string &name, const Mesh<dim> &mesh, const Kernel<dim> &kernel)
+  void check_reproduction(const std::string &name, const Mesh<dim> &mesh, const MeshKernel<dim> &kernel)
   {
     double       unity = 0, linear = 0, sum_of_g = 0, identity = 0, offsets = 0;
     const double h = mesh.longest_edge;
     for_points(mesh, 3, [&](const unsigned int c, const Coordinates<dim> &x) {
-      const Values<dim>                 at(mesh, kernel, c, x);
+      const NodeValues<dim>             at(mesh, kernel, c, x);
       double                            sum = -1;
       Coordinates<dim>                  first{}, slope{};
       std::array<Coordinates<dim>, dim> second{};
@@ -128,11 +46,11 @@ namespace
 
   /** The greatest jumps of phi and g h where two cells meet. */
   template <int dim>
-  std::pair<double, double> jumps(const Mesh<dim> &mesh, const Kernel<dim> &kernel, const unsigned int n_points = 3)
+  std::pair<double, double> jumps(const Mesh<dim> &mesh, const MeshKernel<dim> &kernel, const unsigned int n_points = 3)
   {
     double weight = 0, gradient = 0;
     for_face_points(mesh, n_points, [&](const unsigned int c, const unsigned int beyond, const Coordinates<dim> &x) {
-      const Values<dim> one(mesh, kernel, c, x), other(mesh, kernel, beyond, x);
+      const NodeValues<dim> one(mesh, kernel, c, x), other(mesh, kernel, beyond, x);
       for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
       {
         raise(weight, one.weight[v] - other.weight[v]);
@@ -145,12 +63,12 @@ namespace
 
   /** The least phi_v(x_v), seen from all cells at v. */
   template <int dim>
-  double least_at_own_node(const Mesh<dim> &mesh, const Kernel<dim> &kernel)
+  double least_at_own_node(const Mesh<dim> &mesh, const MeshKernel<dim> &kernel)
   {
     double least = 1;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       for (const unsigned int v : mesh.nodes[c])
-        least = std::min(least, Values<dim>(mesh, kernel, c, mesh.position[v]).weight[v]);
+        least = std::min(least, NodeValues<dim>(mesh, kernel, c, mesh.position[v]).weight[v]);
     return least;
   }
 } // namespace
@@ -208,14 +126,14 @@ void true_gradient()
       const double e = 1e-6 * mesh.longest_edge;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
-        const auto        x = point(mesh, c, barycentric<dim>(random));
-        const Values<dim> here(mesh, kernel, c, x);
+        const auto            x = point(mesh, c, barycentric<dim>(random));
+        const NodeValues<dim> here(mesh, kernel, c, x);
         for (unsigned int d = 0; d < dim; ++d)
         {
           auto right = x, left = x;
           right[d] += e;
           left[d] -= e;
-          const Values<dim> after(mesh, kernel, c, right), before(mesh, kernel, c, left);
+          const NodeValues<dim> after(mesh, kernel, c, right), before(mesh, kernel, c, left);
           for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
             raise(error, mesh.longest_edge * ((after.weight[v] - before.weight[v]) / (2 * e) - here.gradient[v][d]));
         }
@@ -232,7 +150,7 @@ void line()
   const double phi[] = {.058013, .634568, .306827, .000593}, g[] = {-.223399, -.549439, .769076, .003763};
   for (const double xi : {0., .25, .6, 1.})
   {
-    const Values<1> at(mesh, kernel, 2, {{2 + xi}});
+    const NodeValues<1> at(mesh, kernel, 2, {{2 + xi}});
     // M and its inverse by hand, from w in closed form.
     const auto   w0  = [](const double t) { return 2. / 3 - t * t + t * t * t / 2; };
     const double w[] = {std::pow(1 - xi, 4) / 6, w0(xi), w0(1 - xi), std::pow(xi, 4) / 6};
@@ -278,8 +196,8 @@ void held()
     {
       double unity = 0, linear = 0, at_wall = 0;
       for_points(mesh, 2, [&](const unsigned int c, const Coordinates<dim> &x) {
-        const Values<dim> at(mesh, kernel, c, x);
-        double            sum = -1, first = 0;
+        const NodeValues<dim> at(mesh, kernel, c, x);
+        double                sum = -1, first = 0;
         for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
         {
           sum += at.weight[v];

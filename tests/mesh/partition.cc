@@ -34,16 +34,12 @@ namespace
   };
 
   double ramp(const double t) { return t * t * (3 - 2 * t); }
-} // namespace
 
-template <int dim>
-void partition()
-{
-  for (const auto &[name, mesh] : meshes<dim>())
+  template <int dim>
+  void check_sums(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
   {
-    const auto feet      = foot_coordinates(mesh);
-    double     sum_error = 0, gradient_sum = 0, difference = 0, least = 0;
-    for_points(mesh, 5, [&, &mesh = mesh](const unsigned int c, const auto &x) {
+    double sum_error = 0, gradient_sum = 0, least = 0;
+    for_points(mesh, 5, [&](const unsigned int c, const auto &x) {
       const Shares<dim> at(mesh, feet[c], c, x);
       double            sum = -1;
       Coordinates<dim>  total{};
@@ -61,8 +57,13 @@ void partition()
     check(name + ": sum of shares", sum_error, 1e-14);
     check(name + ": sum of gradients", gradient_sum, 1e-12);
     check(name + ": no share is negative", least, 1e-14);
+  }
 
-    // Inside: differences. Formulas hold beyond a cell's faces, so that both points may use the same cell.
+  /** Inside: differences. Formulas hold beyond a cell's faces, so that both points may use the same cell. */
+  template <int dim>
+  void check_differences(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  {
+    double       difference = 0;
     std::mt19937 random(9);
     const double e = 1e-6 * mesh.longest_edge;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
@@ -80,9 +81,13 @@ void partition()
       }
     }
     check(name + ": gradient against differences", difference, 1e-7);
+  }
 
+  template <int dim>
+  void check_faces(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  {
     double jump = 0, gradient_jump = 0;
-    for_face_points(mesh, 5, [&, &mesh = mesh](const unsigned int c, const unsigned int beyond, const auto &x) {
+    for_face_points(mesh, 5, [&](const unsigned int c, const unsigned int beyond, const auto &x) {
       const Shares<dim> one(mesh, feet[c], c, x), other(mesh, feet[beyond], beyond, x);
       for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
       {
@@ -93,37 +98,64 @@ void partition()
     });
     check(name + ": jump at faces", jump, 1e-13);
     check(name + ": jump of the gradient at faces", gradient_jump, 1e-12);
+  }
 
-    // On edges, and close to them: f, with its gradient along the edge.
-    double edge = 0, along = 0, near_edge = 0;
+  struct EdgeErrors
+  {
+    double on = 0, along = 0, beside = 0;
+  };
+
+  /** On the edge from corner j to i of a cell, and close to it: f, with its gradient along the edge. */
+  template <int dim>
+  void look_at_edge(const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet, const unsigned int c,
+                    const unsigned int i, const unsigned int j, EdgeErrors &errors)
+  {
+    typename Mesh<dim>::Barycentric B{};
+    B[i]                = .3;
+    B[j]                = .7;
+    const auto        x = point(mesh, c, B);
+    const Shares<dim> at(mesh, feet[c], c, x);
+    const auto       &from = mesh.position[mesh.nodes[c][j]], &to = mesh.position[mesh.nodes[c][i]];
+    double            square = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      square += std::pow(to[d] - from[d], 2);
+    raise(errors.on, at.eta[mesh.nodes[c][i]] - ramp(.3));
+    for (unsigned int d = 0; d < dim; ++d)
+      raise(errors.along,
+            mesh.longest_edge * (at.gradient[mesh.nodes[c][i]][d] - 6 * .3 * .7 * (to[d] - from[d]) / square));
+    for (unsigned int k = 0; k <= dim; ++k)
+      B[k] += 1e-6 * (1. / (dim + 1) - B[k]);
+    const Shares<dim> close(mesh, feet[c], c, point(mesh, c, B));
+    for (unsigned int d = 0; d < dim; ++d)
+      raise(errors.beside,
+            mesh.longest_edge * (close.gradient[mesh.nodes[c][i]][d] - at.gradient[mesh.nodes[c][i]][d]));
+  }
+
+  template <int dim>
+  void check_edges(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  {
+    EdgeErrors errors;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       for (unsigned int i = 0; i <= dim; ++i)
         for (unsigned int j = 0; j <= dim; ++j)
           if (i != j)
-          {
-            typename Mesh<dim>::Barycentric B{};
-            B[i]                = .3;
-            B[j]                = .7;
-            const auto        x = point(mesh, c, B);
-            const Shares<dim> at(mesh, feet[c], c, x);
-            const auto       &from = mesh.position[mesh.nodes[c][j]], &to = mesh.position[mesh.nodes[c][i]];
-            double            square = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              square += std::pow(to[d] - from[d], 2);
-            raise(edge, at.eta[mesh.nodes[c][i]] - ramp(.3));
-            for (unsigned int d = 0; d < dim; ++d)
-              raise(along,
-                    mesh.longest_edge * (at.gradient[mesh.nodes[c][i]][d] - 6 * .3 * .7 * (to[d] - from[d]) / square));
-            for (unsigned int k = 0; k <= dim; ++k)
-              B[k] += 1e-6 * (1. / (dim + 1) - B[k]);
-            const Shares<dim> close(mesh, feet[c], c, point(mesh, c, B));
-            for (unsigned int d = 0; d < dim; ++d)
-              raise(near_edge,
-                    mesh.longest_edge * (close.gradient[mesh.nodes[c][i]][d] - at.gradient[mesh.nodes[c][i]][d]));
-          }
-    check(name + ": on edges", edge, 1e-13);
-    check(name + ": gradient on edges", along, 1e-12);
-    check(name + ": gradient 1e-6 beside edges", near_edge, 1e-4);
+            look_at_edge(mesh, feet, c, i, j, errors);
+    check(name + ": on edges", errors.on, 1e-13);
+    check(name + ": gradient on edges", errors.along, 1e-12);
+    check(name + ": gradient 1e-6 beside edges", errors.beside, 1e-4);
+  }
+} // namespace
+
+template <int dim>
+void partition()
+{
+  for (const auto &[name, mesh] : meshes<dim>())
+  {
+    const auto feet = foot_coordinates(mesh);
+    check_sums(name, mesh, feet);
+    check_differences(name, mesh, feet);
+    check_faces(name, mesh, feet);
+    check_edges(name, mesh, feet);
   }
 }
 

@@ -111,50 +111,39 @@ namespace
     return static_cast<double>((z ^ (z >> 31)) >> 11) / (1ul << 53);
   }
 
-  /**
-   * Particles by id after random moves, far enough to leave all that a rank knows; a move out of the mesh is not made.
-   * Each is handed to the rank of its cell.
-   */
+  /** Particles that each rank has in its cells; those that move into a cell of another are handed to it. */
   template <int dim>
-  std::map<unsigned int, Coordinates<dim>> move(const MeshPartition<dim> &parts, const MPI_Comm communicator,
-                                                const unsigned int n, const unsigned int n_rounds,
-                                                const double longest_step, unsigned int &n_wrong,
-                                                unsigned int &n_handed)
+  class Walkers
   {
-    using List                         = std::vector<Particle<dim>>;
-    const unsigned int            rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-    List                          here;
-    std::vector<Coordinates<dim>> starts(n);
-    for (unsigned int id = 0; id < n; ++id)
-      for (unsigned int d = 0; d < dim; ++d)
-        starts[id][d] = uniform(id, 0, d);
-    const auto first = parts.find(starts); // all ranks ask for all
-    for (unsigned int id = 0; id < n; ++id)
-      if (first[id].is_found && first[id].rank == rank)
-        here.push_back({id, first[id].cell, starts[id]});
-    const unsigned int n_all = dealii::Utilities::MPI::sum(static_cast<unsigned int>(here.size()), communicator);
+  public:
+    using List     = std::vector<Particle<dim>>;
+    using Location = typename MeshPartition<dim>::Location;
 
-    for (unsigned int round = 0; round < n_rounds; ++round)
+    Walkers(const MeshPartition<dim> &parts, const MPI_Comm communicator, const unsigned int n) :
+      parts(parts), communicator(communicator), rank(dealii::Utilities::MPI::this_mpi_process(communicator))
     {
-      std::vector<Coordinates<dim>>                      moved, lost;
-      std::vector<unsigned int>                          of_lost;
-      std::vector<typename MeshPartition<dim>::Location> location;
-      for (auto &particle : here)
+      std::vector<Coordinates<dim>> starts(n);
+      for (unsigned int id = 0; id < n; ++id)
+        for (unsigned int d = 0; d < dim; ++d)
+          starts[id][d] = uniform(id, 0, d);
+      const auto first = parts.find(starts); // all ranks ask for all
+      for (unsigned int id = 0; id < n; ++id)
+        if (first[id].is_found && first[id].rank == rank)
+          here.push_back({id, first[id].cell, starts[id]});
+      n_all = n_of_all_ranks();
+    }
+
+    /** Far enough to leave all that a rank knows; a move out of the mesh is not made. */
+    void move(const unsigned int round, const double longest_step)
+    {
+      std::vector<Coordinates<dim>> moved;
+      for (const auto &particle : here)
       {
         moved.push_back(particle.x);
         for (unsigned int d = 0; d < dim; ++d)
           moved.back()[d] += longest_step * (2 * uniform(particle.id, round + 1, d) - 1);
-        location.push_back(parts.find_from(particle.cell, moved.back().data()));
-        if (!location.back().is_found)
-        {
-          of_lost.push_back(location.size() - 1);
-          lost.push_back(moved.back());
-        }
       }
-      const auto found = parts.find(lost);
-      for (unsigned int k = 0; k < found.size(); ++k)
-        location[of_lost[k]] = found[k];
-
+      const auto                   location = find(moved);
       List                         staying;
       std::map<unsigned int, List> leaving;
       for (unsigned int k = 0; k < here.size(); ++k)
@@ -170,38 +159,85 @@ namespace
         staying.insert(staying.end(), list.begin(), list.end());
       }
       here = staying;
+      count_wrong();
+    }
+
+    /** Places by id. */
+    std::map<unsigned int, Coordinates<dim>> places() const
+    {
+      std::map<unsigned int, Coordinates<dim>> result;
+      for (const auto &particle : here)
+        result[particle.id] = particle.x;
+      return result;
+    }
+
+    unsigned int n_wrong = 0, n_handed = 0;
+
+  private:
+    /** From their cells, and through all ranks where that does not find them. */
+    std::vector<Location> find(const std::vector<Coordinates<dim>> &moved) const
+    {
+      std::vector<Location>         location;
+      std::vector<Coordinates<dim>> lost;
+      std::vector<unsigned int>     of_lost;
+      for (unsigned int k = 0; k < here.size(); ++k)
+      {
+        location.push_back(parts.find_from(here[k].cell, moved[k].data()));
+        if (!location.back().is_found)
+        {
+          of_lost.push_back(k);
+          lost.push_back(moved[k]);
+        }
+      }
+      const auto found = parts.find(lost);
+      for (unsigned int k = 0; k < found.size(); ++k)
+        location[of_lost[k]] = found[k];
+      return location;
+    }
+
+    void count_wrong()
+    {
       for (const auto &particle : here)
       {
         const auto B = parts.mesh.barycentric(particle.cell, particle.x.data());
         n_wrong +=
           particle.cell >= parts.n_owned_cells || *std::min_element(B.begin(), B.end()) < -barycentric_tolerance;
       }
-      n_wrong += dealii::Utilities::MPI::sum(static_cast<unsigned int>(here.size()), communicator) != n_all;
+      n_wrong += n_of_all_ranks() != n_all;
     }
-    std::map<unsigned int, Coordinates<dim>> result;
-    for (const auto &particle : here)
-      result[particle.id] = particle.x;
-    return result;
-  }
-} // namespace
 
-namespace
-{
+    unsigned int n_of_all_ranks() const
+    {
+      return dealii::Utilities::MPI::sum(static_cast<unsigned int>(here.size()), communicator);
+    }
+
+    const MeshPartition<dim> &parts;
+    const MPI_Comm            communicator;
+    const unsigned int        rank;
+    unsigned int              n_all;
+    List                      here;
+  };
+
+  /** On all ranks together, and on each of them alone. */
   template <int dim>
   void check_moves(const unsigned int n, const unsigned int n_rounds, const double longest_step)
   {
-    unsigned int n_wrong = 0, n_handed = 0, n_alone = 0;
-    const auto   together =
-      move(*partition_of<dim>(MPI_COMM_WORLD), MPI_COMM_WORLD, n, n_rounds, longest_step, n_wrong, n_handed);
-    const auto alone =
-      move(*partition_of<dim>(MPI_COMM_SELF), MPI_COMM_SELF, n, n_rounds, longest_step, n_wrong, n_alone);
-    check_true("each is in a cell of its rank, none is lost", n_wrong == 0);
-    check("number of particles", sum<double>(together.size()) - alone.size(), .5);
+    const auto   parts = partition_of<dim>(MPI_COMM_WORLD), whole = partition_of<dim>(MPI_COMM_SELF);
+    Walkers<dim> together(*parts, MPI_COMM_WORLD, n), alone(*whole, MPI_COMM_SELF, n);
+    for (unsigned int round = 0; round < n_rounds; ++round)
+    {
+      together.move(round, longest_step);
+      alone.move(round, longest_step);
+    }
+    const auto places = together.places(), expected = alone.places();
+    check_true("each is in a cell of its rank, none is lost", together.n_wrong + alone.n_wrong == 0);
+    check("number of particles", sum<double>(places.size()) - expected.size(), .5);
     check_true("some change ranks",
-               (sum(n_handed) > 100) == (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) && n_alone == 0);
+               (sum(together.n_handed) > 100) == (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1) &&
+                 alone.n_handed == 0);
     unsigned int n_elsewhere = 0;
-    for (const auto &[id, x] : together)
-      n_elsewhere += x != alone.at(id);
+    for (const auto &[id, x] : places)
+      n_elsewhere += x != expected.at(id);
     check_true("places of one rank, bit for bit", n_elsewhere == 0);
   }
 } // namespace

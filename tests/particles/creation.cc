@@ -1,51 +1,10 @@
-#include "../setup.h"
+#include "bodies.h"
 
 #include <cstdio>
 #include <fstream>
-#include <set>
 
 using namespace Test;
 using namespace dealii;
-
-namespace
-{
-  /** A unit box of 8 cells per direction. */
-  const std::string grid_entries = set("Spacing", "0.125");
-
-  std::string text(const std::string &body) { return section("Grid", grid_entries) + body_text(body); }
-
-  template <int dim>
-  std::string box(const double lower, const double upper)
-  {
-    return set("Lower corner", coordinates<dim>({{lower, lower, lower}})) +
-           set("Upper corner", coordinates<dim>({{upper, upper, upper}}));
-  }
-
-  template <int dim>
-  double total(const Setup<dim> &setup, const unsigned int field)
-  {
-    double result = 0;
-    for (unsigned int p = 0; p < setup.particles.size(); ++p)
-      result += setup.particles.component(field, 0)[p];
-    return sum(result);
-  }
-
-  /** Every id in [0, n) once over all ranks. */
-  template <int dim>
-  bool has_ids(const Setup<dim> &setup, const unsigned int n)
-  {
-    const auto                      all = Utilities::MPI::gather(MPI_COMM_WORLD, setup.particles.id, 0);
-    std::set<types::particle_index> ids;
-    unsigned int                    n_ids = 0;
-    for (const auto &of_rank : all)
-    {
-      ids.insert(of_rank.begin(), of_rank.end());
-      n_ids += of_rank.size();
-    }
-    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0 ||
-           (n_ids == n && ids.size() == n && *ids.begin() == 0 && *ids.rbegin() == n - 1);
-  }
-} // namespace
 
 /** Position and id by one formula of the id alone, so that no rank count can matter. */
 template <int dim>
@@ -54,8 +13,9 @@ void lattice()
   for (const double jitter : {0., 0.7})
     for (const int per_cell : {1, 2, 3})
     {
-      Setup<dim> setup(text(box<dim>(0.25, 0.75) + set("Particles per cell and direction", std::to_string(per_cell)) +
-                            set("Jitter", std::to_string(jitter)) + set("Seed", "5")));
+      Setup<dim>         setup(on_grid(box<dim>(0.25, 0.75) +
+                                       set("Particles per cell and direction", std::to_string(per_cell)) +
+                                       set("Jitter", std::to_string(jitter)) + set("Seed", "5")));
       const unsigned int n_axis = 4 * per_cell, n = std::pow(n_axis, dim) + .5;
       const double       distance = 0.125 / per_cell;
       double             error    = 0;
@@ -91,7 +51,7 @@ template <int dim>
 void numbers_of_points()
 {
   const double            n = dim == 2 ? 1 << 17 : 1 << 12; // along each axis of the unit box; 2^34 and 2^36 in all
-  Setup<dim>              setup(text(box<dim>(0, 1)));
+  Setup<dim>              setup(on_grid(box<dim>(0, 1)));
   auto                   &shape = *setup.bodies[0]->shape;
   std::array<double, dim> h;
   h.fill(2 / n);
@@ -137,7 +97,7 @@ void round_bodies()
   };
   const std::string dense = set("Particles per cell and direction", "4");
   {
-    Setup<dim> setup(text(set("Shape", "ball") + centre + dense));
+    Setup<dim> setup(on_grid(set("Shape", "ball") + centre + dense));
     check_true("ball: count", setup.particles.n_global == count([](const auto &r) { return r.norm() < 0.4; }));
     const double volume = dim == 2 ? numbers::PI * 0.16 : 4. / 3 * numbers::PI * 0.064;
     check("ball: volume", total(setup, setup.particles.volume) / volume - 1, 0.02);
@@ -146,8 +106,8 @@ void round_bodies()
   {
     std::array<double, 3> base = {{0.5, 0.5, 0.5}};
     base[axis]                 = 0.1;
-    Setup<dim> setup(text(set("Shape", "cylinder") + set("Centre", coordinates<dim>(base)) + set("Radius", "0.4") +
-                          set("Height", "0.8") + set("Axis", std::string(1, "xyz"[axis])) + dense));
+    Setup<dim> setup(on_grid(set("Shape", "cylinder") + set("Centre", coordinates<dim>(base)) + set("Radius", "0.4") +
+                             set("Height", "0.8") + set("Axis", std::string(1, "xyz"[axis])) + dense));
     const auto is_inside = [axis](Tensor<1, dim> r) {
       r[axis] = 0;
       return r.norm() < 0.4;
@@ -166,7 +126,7 @@ void point_file()
   const std::string z     = dim == 3 ? " 0.3" : "";
   write("# x y z volume\n0.1 0.2" + z + " 0.5\n\n0.9 0.8" + z + " 0.25 # a comment\n0.5 0.5" + z + " 1e-3\n");
   const std::string body = set("Shape", "points") + set("File", name);
-  Setup<dim>        setup(text(body));
+  Setup<dim>        setup(on_grid(body));
   check_true("ids", has_ids(setup, 3));
   check("volume", total(setup, setup.particles.volume) - 0.751, 1e-15);
   double error = 0;
@@ -180,7 +140,7 @@ void point_file()
 
   const auto error_in = [&](const std::string &what, const std::string &content, const std::string &message) {
     write(content);
-    check_error<InputError>(what, {message}, [&] { Setup<dim> s(text(body)); });
+    check_error<InputError>(what, {message}, [&] { Setup<dim> s(on_grid(body)); });
   };
   error_in("short line", "0.1 0.2" + z + " 0.5\n0.1 0.2\n", name + ":2: expected " + std::to_string(dim + 1));
   error_in("no number", "0.1 abc" + z + " 0.5\n", name + ":1: 'abc' is not a finite number");
@@ -190,111 +150,7 @@ void point_file()
   error_in("point outside", "0.1 0.2" + z + " 0.5\n1.5 0.2" + z + " 0.5\n", "outside the grid");
   std::remove(name.c_str());
   check_error<EntryError>("missing file", {"/Bodies/body: File", "cannot read", name},
-                          [&] { Setup<dim> s(text(body)); });
-}
-
-template <int dim>
-void initial_state()
-{
-  const std::string velocity = dim == 2 ? "x + 2*y; 3*x*y" : "x + 2*y; 3*x*y; z";
-  const std::string body     = box<dim>(0, 1) + set("Velocity", velocity) +
-                           set("Velocity gradient", dim == 2 ? "1, 2, 3, 4" : "1, 2, 3, 4, 5, 6, 7, 8, 9");
-  double error = 0;
-  {
-    Setup<dim> setup(text(body + set("Initial stress", "uniform") +
-                          set("Stress", dim == 2 ? "1, 2, 3, 4, 0, 0" : "1, 2, 3, 4, 5, 6")));
-    auto      &set = setup.particles;
-    for (unsigned int p = 0; p < set.size(); ++p)
-    {
-      const auto x = setup.position(p);
-      raise(error, set.component(set.velocity, 0)[p] - x[0] - 2 * x[1]);
-      raise(error, set.component(set.velocity, 1)[p] - 3 * x[0] * x[1]);
-      for (unsigned int c = 0; c < dim * dim; ++c)
-      {
-        raise(error, set.component(set.grad_v, c)[p] - (c + 1));
-        raise(error, set.component(set.F, c)[p] - (c % (dim + 1) == 0));
-      }
-      for (unsigned int d = 0; d < dim; ++d)
-        raise(error, set.component(set.initial_position, d)[p] - x[d]);
-      for (unsigned int c = 0; c < set.n_stress; ++c)
-        raise(error, set.component(set.stress, c)[p] - (c + 1));
-    }
-    check("velocity, gradients, uniform stress", error, 1e-14);
-  }
-  for (const double K0 : {-1., 0.7})
-  {
-    const unsigned int up = dim - 1;
-    Setup<dim>         setup(text(box<dim>(0, 1) + set("Initial stress", "geostatic") + set("Unit weight", "20") +
-                                  set("Surface level", "0.9") + (K0 < 0 ? "" : set("Rest stress ratio", "0.7"))));
-    auto              &set = setup.particles;
-    error                  = 0;
-    for (unsigned int p = 0; p < set.size(); ++p)
-    {
-      const double vertical = -20 * std::max(0., 0.9 - setup.position(p)[up]);
-      const double ratio    = K0 < 0 ? 0.2 / 0.8 : K0;
-      for (unsigned int c = 0; c < set.n_stress; ++c)
-        raise(error, set.component(set.stress, c)[p] - (c == up ? vertical : c < 3 ? ratio * vertical : 0.));
-    }
-    check("geostatic, K0 = " + std::to_string(K0), error, 1e-13);
-  }
-}
-
-/** A fluid at rest: p = weight (level - height), and the density that the equation of state has at this pressure. */
-template <int dim>
-void hydrostatic()
-{
-  const unsigned int up = dim - 1;
-  const std::string  water =
-    section("water", set("Type", "Newtonian fluid") + set("Density", "3") + set("Sound speed", "5"));
-  const std::string start =
-    set("Initial stress", "hydrostatic") + set("Unit weight", "20") + set("Surface level", "0.9");
-  Setup<dim> setup(section("Grid", grid_entries) + section("Materials", set("Names", "water") + water) +
-                   section("Bodies", set("Names", "body") + section("body", box<dim>(0, 1) + start)));
-  auto      &set   = setup.particles;
-  double     error = 0;
-  for (unsigned int p = 0; p < set.size(); ++p)
-  {
-    const double pressure = 20 * std::max(0., 0.9 - setup.position(p)[up]);
-    for (unsigned int c = 0; c < set.n_stress; ++c)
-      raise(error, set.component(set.stress, c)[p] - (c < 3 ? -pressure : 0.));
-    raise(error, set.component(set.mass, 0)[p] / set.component(set.volume, 0)[p] - (3 + pressure / 25));
-  }
-  check("stress and density", error, 1e-13);
-}
-
-/** A body that starts compressed by .8 in all directions of the plane or of space: mass, F and stress in closed form.
- */
-template <int dim>
-void deformed()
-{
-  const auto text_of = [](const std::string &more, const std::string &type) {
-    std::string result = text(box<dim>(0, 1) + more);
-    return result.insert(result.find("set Density"), set("Type", type));
-  };
-  const std::string F = dim == 2 ? "0.8, 0, 0, 0.8" : "0.8, 0, 0, 0, 0.8, 0, 0, 0, 0.8";
-  Setup<dim>        setup(text_of(set("Deformation gradient", F), "neo-Hookean"));
-  auto             &set_of = setup.particles;
-  const double      J = std::pow(0.8, dim), mu = 7 / 2.4, lambda = 7 * 0.2 / (1.2 * 0.6);
-  double            error = 0;
-  for (unsigned int p = 0; p < set_of.size(); ++p)
-  {
-    for (unsigned int c = 0; c < dim * dim; ++c)
-      raise(error, set_of.component(set_of.F, c)[p] - (c % (dim + 1) == 0 ? 0.8 : 0.));
-    for (unsigned int c = 0; c < set_of.n_stress; ++c)
-      raise(error, set_of.component(set_of.stress, c)[p] -
-                     (c < 3 ? (lambda * std::log(J) + mu * (c < dim ? 0.64 - 1 : 0.)) / J : 0.));
-  }
-  check("F and stress", error, 1e-13);
-  check("volume", total(setup, set_of.volume) - 1, 1e-13);
-  check("mass", total(setup, set_of.mass) - 3 / J, 1e-12);
-  const auto refused = [&](const std::string &name, const std::string &F, const std::string &type,
-                           const std::string &message) {
-    check_error<EntryError>(name, {"/Bodies/body: Deformation gradient", message},
-                            [&] { Setup<dim> s(text_of(set("Deformation gradient", F), type)); });
-  };
-  refused("inside out", (dim == 2 ? "-1, 0, 0, 1" : "-1, 0, 0, 0, 1, 0, 0, 0, 1"), "neo-Hookean", "positive");
-  refused("too few numbers", "1, 0", "neo-Hookean", "row by row");
-  refused("a law in rates", F, "linear elastic", "no function of it");
+                          [&] { Setup<dim> s(on_grid(body)); });
 }
 
 template <int dim>
@@ -302,7 +158,7 @@ void body_errors()
 {
   const auto error = [](const std::string &name, const std::string &body, const std::string &entry,
                         const std::string &message) {
-    check_error<EntryError>(name, {"/Bodies/body: " + entry, message}, [&] { Setup<dim> s(text(body)); });
+    check_error<EntryError>(name, {"/Bodies/body: " + entry, message}, [&] { Setup<dim> s(on_grid(body)); });
   };
   error("empty box", box<dim>(0.5, 0.5), "Upper corner", "the body is empty");
   error("negative radius", set("Shape", "ball") + set("Radius", "-1"), "Radius", "the body is empty");
@@ -328,7 +184,4 @@ INSTANTIATE(lattice)
 INSTANTIATE(numbers_of_points)
 INSTANTIATE(round_bodies)
 INSTANTIATE(point_file)
-INSTANTIATE(initial_state)
-INSTANTIATE(hydrostatic)
-INSTANTIATE(deformed)
 INSTANTIATE(body_errors)

@@ -84,6 +84,69 @@ namespace
 
     std::map<Key, std::pair<double, Tensor<1, dim>>> sums;
   };
+
+  template <int dim>
+  void set_random_velocities(Run<dim> &run)
+  {
+    auto &set = run.model.particles;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int p = 0; p < set.size(); ++p)
+        set.component(set.velocity, d)[p] = hashed_jitter(3, set.id[p], d);
+  }
+
+  /** What a step with MUSL leaves as it is without. */
+  template <int dim>
+  void check_motion(const std::string &name, const Run<dim> &once, const Run<dim> &twice)
+  {
+    const auto &particles = twice.model.particles;
+    double      same      = 0;
+    for (const unsigned int field : {particles.position, particles.velocity})
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int p = 0; p < particles.size(); ++p)
+          raise(same, once.columns(field)[c][p] - twice.columns(field)[c][p]);
+    check(name + ": positions and velocities", same, 1e-15);
+    if (!once.model.boundary.conditions.empty())
+    {
+      const auto &a = *once.model.boundary.conditions[0], &b = *twice.model.boundary.conditions[0];
+      check(name + ": reaction", (a.reaction - b.reaction).norm() + (a.nodal_force - b.nodal_force).norm(),
+            1e-13 * a.reaction.norm());
+      check(name + ": work", a.work - b.work, 1e-15);
+    }
+  }
+
+  /** grad v against the sums over the stencils of the particles' places. */
+  template <int dim>
+  void check_gradient(const std::string &name, Run<dim> &run, const bool has_walls)
+  {
+    const auto   &particles = run.model.particles;
+    NodeSums<dim> sums;
+    const auto    for_entries = [&](const unsigned int p, const auto &visit) {
+      const Point<dim> x_p(particles.vector(particles.position, p));
+      Stencil<dim>     stencil;
+      run.model.kernel->evaluate(particles, p, p + 1, &stencil);
+      for (unsigned int k = 0; k < stencil.size; ++k)
+        visit(sums.key(x_p, stencil, k), stencil, k);
+    };
+    for (unsigned int p = 0; p < particles.size(); ++p)
+      for_entries(p, [&](const auto &key, const Stencil<dim> &stencil, const unsigned int k) {
+        const double m = stencil.weight[k] * particles.component(particles.mass, 0)[p];
+        sums.add(key, m, m * particles.vector(particles.velocity, p));
+      });
+    sums.collect();
+    double error = 0, size = 0;
+    for (unsigned int p = 0; p < particles.size(); ++p)
+    {
+      Tensor<2, dim> grad_v;
+      for_entries(p, [&](const auto &key, const Stencil<dim> &stencil, const unsigned int k) {
+        for (unsigned int e = 0; e < dim; ++e)
+          for (unsigned int d = 0; d < dim; ++d)
+            grad_v[d][e] += sums.velocity(key, has_walls)[d] * stencil.gradient[e][k];
+      });
+      raise(error, (grad_v - particles.matrix(particles.grad_v, p)).norm());
+      raise(size, grad_v.norm());
+    }
+    check(name + ": grad v", error / size, 1e-12);
+  }
 } // namespace
 
 /**
@@ -103,66 +166,19 @@ void musl_definition()
       const double      end  = has_walls ? 1. : 0.75;
       const std::string text = run_text<dim>(kernel, "FLIP", "", {{0.25, 0.25, 0.25}}, {{end, 0.7, 0.6}}, treatment) +
                                walls_text<dim>(has_walls ? "no-slip" : "free");
-      Run<dim>   once(text), twice(text + section("Run", set("MUSL", "true")));
-      const auto start = [](Run<dim> &run) {
-        auto &set = run.model.particles;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int p = 0; p < set.size(); ++p)
-            set.component(set.velocity, d)[p] = hashed_jitter(3, set.id[p], d);
-      };
-      start(once);
-      start(twice);
-      auto        &particles = twice.model.particles;
+      Run<dim> once(text), twice(text + section("Run", set("MUSL", "true")));
+      set_random_velocities(once);
+      set_random_velocities(twice);
+      const auto  &particles = twice.model.particles;
       const auto   x = twice.columns(particles.position), F = twice.columns(particles.F);
       const double dt = 1e-3;
       once.step(dt);
       twice.step(dt);
-      double same = 0;
-      for (const unsigned int field : {particles.position, particles.velocity})
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int p = 0; p < particles.size(); ++p)
-            raise(same, once.columns(field)[c][p] - twice.columns(field)[c][p]);
       const std::string name = kernel + (treatment.empty() ? "" : ", " + treatment) + (has_walls ? ", walls" : "");
-      check(name + ": positions and velocities", same, 1e-15);
-      if (has_walls)
-      {
-        const auto &a = *once.model.boundary.conditions[0], &b = *twice.model.boundary.conditions[0];
-        check(name + ": reaction", (a.reaction - b.reaction).norm() + (a.nodal_force - b.nodal_force).norm(),
-              1e-13 * a.reaction.norm());
-        check(name + ": work", a.work - b.work, 1e-15);
-      }
-
+      check_motion(name, once, twice);
       twice.set_columns(particles.position, x);
       twice.set_columns(particles.F, F);
-      NodeSums<dim> sums;
-      Stencil<dim>  stencil;
-      for (const bool is_gather : {false, true})
-      {
-        double error = 0, size = 0;
-        for (unsigned int p = 0; p < particles.size(); ++p)
-        {
-          const Point<dim> x_p(particles.vector(particles.position, p));
-          twice.model.kernel->evaluate(particles, p, p + 1, &stencil);
-          Tensor<2, dim> grad_v;
-          for (unsigned int k = 0; k < stencil.size; ++k)
-          {
-            const auto   key = sums.key(x_p, stencil, k);
-            const double m   = stencil.weight[k] * particles.component(particles.mass, 0)[p];
-            if (!is_gather)
-              sums.add(key, m, m * particles.vector(particles.velocity, p));
-            else
-              for (unsigned int e = 0; e < dim; ++e)
-                for (unsigned int d = 0; d < dim; ++d)
-                  grad_v[d][e] += sums.velocity(key, has_walls)[d] * stencil.gradient[e][k];
-          }
-          raise(error, (grad_v - particles.matrix(particles.grad_v, p)).norm());
-          raise(size, grad_v.norm());
-        }
-        if (is_gather)
-          check(name + ": grad v", error / size, 1e-12);
-        else
-          sums.collect();
-      }
+      check_gradient(name, twice, has_walls);
     }
 }
 

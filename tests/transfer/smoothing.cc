@@ -56,33 +56,24 @@ namespace
       g[d] = 0.2 - 0.15 * d;
     return g;
   }
-} // namespace
 
-template <int dim>
-void smoothing()
-{
-  const std::vector<std::string> kernels = {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"};
-  for (const auto &kernel : kernels)
-    for (const std::string treatment : {"none", "WLS", "mirror"})
+  template <int dim>
+  class SmoothedFluid : public Setup<dim>
+  {
+  public:
+    SmoothedFluid(const std::string &kernel, const std::string &treatment) :
+      Setup<dim>(fluid<dim>(kernel, treatment, smoothed)), name(kernel + ", " + treatment),
+      h(this->grid.lattice.smallest_spacing())
     {
-      const std::string name = kernel + ", " + treatment;
-      Setup<dim>        setup(fluid<dim>(kernel, treatment, smoothed));
-      auto             &particles = setup.particles;
-      const double      h         = setup.grid.lattice.smallest_spacing();
-      const auto        apply     = [&](const double dt) {
-        setup.smoothing.apply(setup.materials, *setup.kernel, dt, particles, setup.grid);
-      };
-      const auto field = [&](const std::string &wanted) {
-        unsigned int f = 0;
-        while (particles.fields[f].name != wanted)
-          ++f;
-        return f;
-      };
-      const unsigned int gradient = field("gradient of the smoothed volume ratio");
+      while (particles.fields[gradient].name != "gradient of the smoothed volume ratio")
+        ++gradient;
+    }
 
-      // The grid's fields, which output shows, are left alone.
+    /** The grid's fields, which output shows, are left alone. */
+    void check_grid()
+    {
       double     touched = 0;
-      auto      &fields  = setup.grid.fields;
+      auto      &fields  = this->grid.fields;
       const auto pattern = [](const unsigned int i, const unsigned int lane) { return 1. + i + 0.1 * lane; };
       for (unsigned int i = 0; i < fields.n_local(); ++i)
         for (unsigned int lane = 0; lane < fields.stride; ++lane)
@@ -92,60 +83,73 @@ void smoothing()
         for (unsigned int lane = 0; lane < fields.stride; ++lane)
           raise(touched, fields[i][lane] - pattern(i, lane));
       check(name + ": fields of the grid", touched, 1e-300);
+    }
 
-      // A linear J with its gradient stays, and the gradient too.
-      const auto linear = [&](const unsigned int p) { return 1 + slope<dim>() * setup.position(p); };
-      set_J(setup, linear);
-      setup.fill(gradient, [](unsigned int, const unsigned int d) { return slope<dim>()[d]; });
+    /** A linear J with its gradient stays, and the gradient too. */
+    void check_linear()
+    {
+      const auto linear = [&](const unsigned int p) { return 1 + slope<dim>() * this->position(p); };
+      set_J(*this, linear);
+      this->fill(gradient, [](unsigned int, const unsigned int d) { return slope<dim>()[d]; });
       for (unsigned int n = 0; n < 20; ++n)
         apply(h / c); // alpha = beta
       double error = 0, slope_error = 0;
       for (unsigned int p = 0; p < particles.size(); ++p)
       {
-        raise(error, J(setup, p) - linear(p));
+        raise(error, J(*this, p) - linear(p));
         for (unsigned int d = 0; d < dim; ++d)
           raise(slope_error, h * (particles.component(gradient, d)[p] - slope<dim>()[d]));
       }
       check(name + ": linear J", error, 1e-12);
       check(name + ": its gradient", slope_error, 1e-12);
+    }
 
-      // A random one: the sum of m J stays, F and stress follow the volume, and alpha of the difference goes.
-      set_J(setup, [&](const unsigned int p) { return 1 + 0.1 * hashed_jitter(9, particles.id[p], 0); });
-      setup.randomize(gradient, 10);
-      const auto total = [&] {
-        double result = 0;
-        for (unsigned int p = 0; p < particles.size(); ++p)
-          result += particles.component(particles.mass, 0)[p] * J(setup, p);
-        return sum(result);
-      };
+    /** A random one: the sum of m J stays, F and stress follow the volume, and alpha of the difference goes. */
+    void check_random()
+    {
+      set_random_J();
+      this->randomize(gradient, 10);
       const double before = total();
-      const auto   state  = [&] {
-        std::vector<double> values;
-        for (unsigned int p = 0; p < particles.size(); ++p)
-          values.push_back(J(setup, p));
-        return values;
-      };
-      const auto first = state();
+      const auto   first  = all_J();
       apply(h / c); // alpha = 0.1
-      const auto small     = state();
+      const auto small     = all_J();
       double     det_error = 0, stress_error = 0;
       for (unsigned int p = 0; p < particles.size(); ++p)
       {
-        raise(det_error, determinant(matrix(setup, particles.F, p)) - small[p]);
+        raise(det_error, determinant(matrix(*this, particles.F, p)) - small[p]);
         raise(stress_error, particles.component(particles.stress, 1)[p] + c * c * reference * (1 / small[p] - 1));
       }
       check(name + ": sum of m J", total() / before - 1, 1e-13);
       check(name + ": det F", det_error, 1e-13);
       check(name + ": stress", stress_error, 1e-12);
+      check_alpha(first, small);
+    }
 
-      // The same from the same state in a step ten times as long, and in one beyond the limit: alpha = 1.
+    void check_noise()
+    {
+      set_random_J();
+      this->smoothing.initialize(this->materials, *this->kernel, particles, this->grid);
+      const double rough = roughness();
+      for (unsigned int n = 0; n < 100; ++n)
+        apply(h / c);
+      check(name + ": what is left of noise", std::sqrt(roughness() / rough), 0.8);
+    }
+
+  private:
+    using Setup<dim>::particles;
+
+    void apply(const double dt) { this->smoothing.apply(this->materials, *this->kernel, dt, particles, this->grid); }
+
+    /** The same from the same state in a step ten times as long, and in one beyond the limit: alpha = 1. */
+    void check_alpha(const std::vector<double> &first, const std::vector<double> &small)
+    {
       const auto again = [&](const double dt) {
-        setup.fill(particles.volume, [&](const unsigned int p, unsigned int) {
+        this->fill(particles.volume, [&](const unsigned int p, unsigned int) {
           return first[p] * particles.component(particles.mass, 0)[p] / reference;
         });
-        setup.randomize(gradient, 10);
+        this->randomize(gradient, 10);
         apply(dt);
-        return state();
+        return all_J();
       };
       const auto tenfold = again(10 * h / c), beyond = again(1000 * h / c);
       double     alpha_error = 0, limit_error = 0;
@@ -156,20 +160,54 @@ void smoothing()
       }
       check(name + ": alpha", alpha_error, 1e-13);
       check(name + ": alpha <= 1", limit_error, 1e-13);
+    }
 
-      // It smooths.
-      const auto roughness = [&] {
-        double result = 0;
-        for (unsigned int p = 0; p < particles.size(); ++p)
-          result += std::pow(J(setup, p) - 1, 2);
-        return sum(result);
-      };
-      set_J(setup, [&](const unsigned int p) { return 1 + 0.1 * hashed_jitter(9, particles.id[p], 0); });
-      setup.smoothing.initialize(setup.materials, *setup.kernel, particles, setup.grid);
-      const double rough = roughness();
-      for (unsigned int n = 0; n < 100; ++n)
-        apply(h / c);
-      check(name + ": what is left of noise", std::sqrt(roughness() / rough), 0.8);
+    void set_random_J()
+    {
+      set_J(*this, [&](const unsigned int p) { return 1 + 0.1 * hashed_jitter(9, particles.id[p], 0); });
+    }
+
+    std::vector<double> all_J() const
+    {
+      std::vector<double> values;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        values.push_back(J(*this, p));
+      return values;
+    }
+
+    double total() const
+    {
+      double result = 0;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        result += particles.component(particles.mass, 0)[p] * J(*this, p);
+      return sum(result);
+    }
+
+    double roughness() const
+    {
+      double result = 0;
+      for (unsigned int p = 0; p < particles.size(); ++p)
+        result += std::pow(J(*this, p) - 1, 2);
+      return sum(result);
+    }
+
+    const std::string name;
+    const double      h;
+    unsigned int      gradient = 0;
+  };
+} // namespace
+
+template <int dim>
+void smoothing()
+{
+  for (const std::string kernel : {"linear", "quadratic B-spline", "cubic B-spline", "uGIMP"})
+    for (const std::string treatment : {"none", "WLS", "mirror"})
+    {
+      SmoothedFluid<dim> setup(kernel, treatment);
+      setup.check_grid();
+      setup.check_linear();
+      setup.check_random();
+      setup.check_noise();
     }
 
   Setup<dim> off(fluid<dim>("quadratic B-spline", "WLS", ""));

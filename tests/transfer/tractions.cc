@@ -90,6 +90,91 @@ namespace
   }
 } // namespace
 
+namespace
+{
+  /** -p da over the whole surface: no force, moment -p V I. */
+  template <int dim>
+  void check_pressure(const std::string &kernel)
+  {
+    LoadedBody<dim> body(kernel, set("Type", "pressure") + set("Pressure", "3*t"));
+    body.deform();
+    const auto           sums = body.sums(0.5);
+    const double         V    = volume<dim>() * determinant(body.A());
+    const Tensor<2, dim> I    = unit_symmetric_tensor<dim>();
+    check(kernel + ": pressure: force", sums.first.norm(), 1e-14);
+    check(kernel + ": pressure: moment", (sums.second + 1.5 * V * I).norm(), 1e-14);
+  }
+
+  /** p = 2 - 5 y: buoyancy 5 V. */
+  template <int dim>
+  void check_buoyancy(const std::string &kernel)
+  {
+    LoadedBody<dim> body(kernel, set("Type", "pressure") + set("Pressure", "2 - 5*y") + set("Faces", "all"));
+    body.deform();
+    Tensor<1, dim> error = body.sums(0.).first;
+    error[1] -= 5 * volume<dim>() * determinant(body.A());
+    check(kernel + ": buoyancy", error.norm(), 1e-14);
+    check(kernel + ": recorded force", (Utilities::MPI::sum(body.traction.force, MPI_COMM_WORLD) - error)[0], 1e-14);
+  }
+
+  /** An even traction on a face acts in the middle of the deformed face. */
+  template <int dim>
+  void check_even_traction(const std::string &kernel)
+  {
+    const std::string third = dim == 3 ? "; 2*t" : "";
+    LoadedBody<dim>   body(kernel, set("Type", "traction") + set("Traction", "3; -t" + third) + set("Faces", "x+") +
+                                     set("Points per cell edge", "3"));
+    body.deform();
+    const auto     sums = body.sums(0.5);
+    Tensor<1, dim> force;
+    force[0] = 3, force[1] = -0.5, force[dim - 1] += dim == 3 ? 1. : 0.;
+    force *= volume<dim>() / (upper[0] - lower[0]);
+    Point<dim> middle = body.centre();
+    middle[0]         = upper[0];
+    middle            = body.moved(middle);
+    check(kernel + ": traction: force", (sums.first - force).norm(), 1e-14);
+    check(kernel + ": traction: moment", (sums.second - outer_product(force, Tensor<1, dim>(middle))).norm(), 1e-14);
+  }
+
+  /** A traction that depends on the place, (x, 0), on the part of a face with y < 1, evenly deformed. */
+  template <int dim>
+  void check_traction_on_part(const std::string &kernel)
+  {
+    LoadedBody<dim> body(kernel, set("Traction", dim == 2 ? "x; 0" : "x; 0; 0") + set("Faces", "x-, x+") +
+                                   set("Lower corner", coordinates<dim>({{0, 0, 0}})) +
+                                   set("Upper corner", coordinates<dim>({{1, 1, 1}})) +
+                                   set("Points per cell edge", "8"));
+    body.deform();
+    double length = 0;
+    for (const double x : {lower[0], upper[0]})
+    {
+      Point<dim> middle = body.centre();
+      middle[0]         = x;
+      middle[1]         = (lower[1] + 1) / 2;
+      length += body.moved(middle)[0] * (1 - lower[1]) * (dim == 3 ? upper[2] - lower[2] : 1.);
+    }
+    check(kernel + ": part of a face", body.sums(0).first[0] - length, 1e-14);
+  }
+
+  template <int dim>
+  void check_point_force(const std::string &kernel)
+  {
+    LoadedBody<dim> body(kernel, set("Type", "force") + set("Force", dim == 2 ? "2; x" : "2; x; 0") +
+                                   set("Position", coordinates<dim>({{0.21, 1.06, 0.7}})));
+    body.deform();
+    const auto sums = body.sums(0);
+    Point<dim> x;
+    x[0] = 0.21, x[1] = 1.06;
+    if (dim == 3)
+      x[dim - 1] = 0.7;
+    x = body.moved(x);
+    Tensor<1, dim> force;
+    force[0] = 2, force[1] = x[0];
+    check(kernel + ": point force", (sums.first - force).norm(), 1e-14);
+    check(kernel + ": its place", (sums.second - outer_product(force, Tensor<1, dim>(x))).norm(), 1e-14);
+  }
+} // namespace
+
 /**
  * Force and moment about the origin of loads on a body that is deformed evenly, by the divergence theorem. What the
  * points integrate is at most linear, and a mid-point rule is exact.
@@ -97,75 +182,13 @@ namespace
 template <int dim>
 void traction_sums()
 {
-  const std::string third = dim == 3 ? "; 2*t" : "";
   for (const auto &kernel : kernels)
   {
-    {
-      // -p da over the whole surface: no force, moment -p V I.
-      LoadedBody<dim> body(kernel, set("Type", "pressure") + set("Pressure", "3*t"));
-      body.deform();
-      const auto           sums = body.sums(0.5);
-      const double         V    = volume<dim>() * determinant(body.A());
-      const Tensor<2, dim> I    = unit_symmetric_tensor<dim>();
-      check(kernel + ": pressure: force", sums.first.norm(), 1e-14);
-      check(kernel + ": pressure: moment", (sums.second + 1.5 * V * I).norm(), 1e-14);
-    }
-    {
-      // p = 2 - 5 y: buoyancy 5 V.
-      LoadedBody<dim> body(kernel, set("Type", "pressure") + set("Pressure", "2 - 5*y") + set("Faces", "all"));
-      body.deform();
-      Tensor<1, dim> error = body.sums(0.).first;
-      error[1] -= 5 * volume<dim>() * determinant(body.A());
-      check(kernel + ": buoyancy", error.norm(), 1e-14);
-      check(kernel + ": recorded force", (Utilities::MPI::sum(body.traction.force, MPI_COMM_WORLD) - error)[0], 1e-14);
-    }
-    {
-      // An even traction on a face acts in the middle of the deformed face.
-      LoadedBody<dim> body(kernel, set("Type", "traction") + set("Traction", "3; -t" + third) + set("Faces", "x+") +
-                                     set("Points per cell edge", "3"));
-      body.deform();
-      const auto     sums = body.sums(0.5);
-      Tensor<1, dim> force;
-      force[0] = 3, force[1] = -0.5, force[dim - 1] += dim == 3 ? 1. : 0.;
-      force *= volume<dim>() / (upper[0] - lower[0]);
-      Point<dim> middle = body.centre();
-      middle[0]         = upper[0];
-      middle            = body.moved(middle);
-      check(kernel + ": traction: force", (sums.first - force).norm(), 1e-14);
-      check(kernel + ": traction: moment", (sums.second - outer_product(force, Tensor<1, dim>(middle))).norm(), 1e-14);
-    }
-    {
-      // A traction that depends on the place, (x, 0), on the part of a face with y < 1, evenly deformed.
-      LoadedBody<dim> body(kernel, set("Traction", dim == 2 ? "x; 0" : "x; 0; 0") + set("Faces", "x-, x+") +
-                                     set("Lower corner", coordinates<dim>({{0, 0, 0}})) +
-                                     set("Upper corner", coordinates<dim>({{1, 1, 1}})) +
-                                     set("Points per cell edge", "8"));
-      body.deform();
-      double length = 0;
-      for (const double x : {lower[0], upper[0]})
-      {
-        Point<dim> middle = body.centre();
-        middle[0]         = x;
-        middle[1]         = (lower[1] + 1) / 2;
-        length += body.moved(middle)[0] * (1 - lower[1]) * (dim == 3 ? upper[2] - lower[2] : 1.);
-      }
-      check(kernel + ": part of a face", body.sums(0).first[0] - length, 1e-14);
-    }
-    {
-      LoadedBody<dim> body(kernel, set("Type", "force") + set("Force", dim == 2 ? "2; x" : "2; x; 0") +
-                                     set("Position", coordinates<dim>({{0.21, 1.06, 0.7}})));
-      body.deform();
-      const auto sums = body.sums(0);
-      Point<dim> x;
-      x[0] = 0.21, x[1] = 1.06;
-      if (dim == 3)
-        x[dim - 1] = 0.7;
-      x = body.moved(x);
-      Tensor<1, dim> force;
-      force[0] = 2, force[1] = x[0];
-      check(kernel + ": point force", (sums.first - force).norm(), 1e-14);
-      check(kernel + ": its place", (sums.second - outer_product(force, Tensor<1, dim>(x))).norm(), 1e-14);
-    }
+    check_pressure<dim>(kernel);
+    check_buoyancy<dim>(kernel);
+    check_even_traction<dim>(kernel);
+    check_traction_on_part<dim>(kernel);
+    check_point_force<dim>(kernel);
   }
 }
 
