@@ -33,7 +33,8 @@ def run(grid, h):
                 "Output/Grid": "false", "Output/Time interval": 0.25, "Output/Statistics interval": 20,
                 "Output/Particle fields": "velocity, equivalent plastic strain, pressure, displacement, mass"}
     if grid == "UMLS":
-        settings.update({"Grid/Type": "mesh", "Kernel/Type": "UMLS", "Conditions/floor/Boundary ids": "",
+        settings.update({"Grid/Type": "mesh", "Grid/Cells": f"{round(30 / h)}, {round(6 / h)}",
+                         "Kernel/Type": "UMLS", "Conditions/floor/Boundary ids": "",
                          "Conditions/floor/Boundaries": "lower y", "Conditions/sides/Boundary ids": "",
                          "Conditions/sides/Boundaries": "lower x, upper x"})
     return Run("prm/clay_slope.prm", settings, {"grid": grid, "h": h})
