@@ -120,15 +120,15 @@ def figures(results):
 def draw(results, path):
     by = {tuple(result.run.label.values()): result for result in results}
     figure, axes = plt.subplots(2, 4, figsize=(13, 6.5), layout="constrained")
-    shown = [(kernel, kind, 45, 0.1) for kernel in KERNELS[1:] for kind in ("structured", "Delaunay")]
+    shown = [(kernel, *mesh, 0.1) for kernel in KERNELS[1:] for mesh in (("structured", 45), ("Delaunay", 0))]
     for axis, key in zip(axes[0], shown):
-        nodes, triangles = meshes.read_triangles(meshes.DIRECTORY / f"cantilever_{key[1]}_0.1_45.msh")
+        nodes, triangles = meshes.read_triangles(meshes.DIRECTORY / f"cantilever_{key[1]}_0.1_{key[2]}.msh")
         axis.triplot(Triangulation(*nodes.T, triangles), color="0.85", lw=0.3)
         if by[key].status == 0:
             particles = by[key].particles(0.5)
             drawn = axis.scatter(particles["x"], particles["y"], s=4 if key[0] == "UMLS" else 1.5,
                                  c=particles["stress_xx"] / 1e6, vmin=-0.6, vmax=0.6, cmap="coolwarm", linewidths=0)
-        axis.set_title(f"{key[0]}, {key[1]}, 45 degrees", fontsize=10)
+        axis.set_title(f"{key[0]}, {key[1]}, {key[2]} degrees", fontsize=10)
         axis.set(xlim=(0, 4.2), ylim=(-1.2, 1.6), aspect="equal", xlabel="x [m]")
     axes[0, 0].set_ylabel("y [m]")
     figure.colorbar(drawn, ax=axes[0], label="stress xx [MPa], t = .5 s", shrink=0.8, extend="both")
@@ -151,9 +151,10 @@ def draw(results, path):
             if not all(map(math.isnan, errors)):
                 axes[1, 3].loglog(SIZES, errors, dash, marker="o", ms=4, color=colour, label=f"{kernel}, {kind}")
     axes[1, 3].axhline(1, color="k", lw=0.8, ls=":", label="bound, h = .1")
-    axes[1, 3].set(xlabel="h [m]", ylabel="rms error, % of the lowest", title="0 degrees")
+    axes[1, 3].set(xlabel="h [m]", ylabel="rms error, % of the lowest", title="0 degrees", ylim=(0.1, 4))
     axes[1, 3].set_xticks(SIZES, [f"{h:g}" for h in SIZES])
+    axes[1, 3].set_yticks((0.1, 0.2, 0.5, 1, 2, 4), ("0.1", "0.2", "0.5", "1", "2", "4"))
     axes[1, 3].minorticks_off()
-    axes[1, 3].legend(fontsize=7)
+    axes[1, 3].legend(fontsize=7, loc="lower right")
     figure.savefig(path, dpi=130)
     plt.close(figure)
