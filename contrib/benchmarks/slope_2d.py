@@ -34,7 +34,7 @@ def run(grid, h):
                 "Output/Particle fields": "velocity, equivalent plastic strain, pressure, displacement, mass"}
     if grid == "UMLS":
         settings.update({"Grid/Type": "mesh", "Grid/Cells": f"{round(30 / h)}, {round(6 / h)}",
-                         "Kernel/Type": "UMLS", "Conditions/floor/Boundary ids": "",
+                         "Run/Courant number": 0.6, "Kernel/Type": "UMLS", "Conditions/floor/Boundary ids": "",
                          "Conditions/floor/Boundaries": "lower y", "Conditions/sides/Boundary ids": "",
                          "Conditions/sides/Boundaries": "lower x, upper x"})
     return Run("prm/clay_slope.prm", settings, {"grid": grid, "h": h})
