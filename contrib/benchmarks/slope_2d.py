@@ -2,7 +2,7 @@
 The slope in sensitive clay of slope.py in plane strain, half the strengths: whether triangles and boxes come to the
 same as they get finer. FLIP, two seconds.
 
-TALUS_SLOPE_FINEST in the environment is the least spacing, .125 by default; each halving takes eight times as long.
+TALUS_SLOPE_FINEST in the environment is the least spacing, .25 by default; each halving takes eight times as long.
 """
 import math
 import os
@@ -15,9 +15,9 @@ import numpy as np
 import report
 from runs import Run
 
-TITLE = "slope in sensitive clay (plane strain): UMLS on triangles and quadratic B-splines on boxes, three spacings"
+TITLE = "slope in sensitive clay (plane strain): UMLS on triangles and quadratic B-splines on boxes as they get finer"
 
-FINEST = float(os.environ.get("TALUS_SLOPE_FINEST", 0.125))
+FINEST = float(os.environ.get("TALUS_SLOPE_FINEST", 0.25))
 SPACINGS = tuple(0.5 / 2**k for k in range(round(math.log2(0.5 / FINEST)) + 1))
 GRIDS = ("UMLS", "B-splines")
 TOE, END = 15., 2.
@@ -33,10 +33,11 @@ def run(grid, h):
                 "Output/Grid": "false", "Output/Time interval": 0.25, "Output/Statistics interval": 20,
                 "Output/Particle fields": "velocity, equivalent plastic strain, pressure, displacement, mass"}
     if grid == "UMLS":
-        settings.update({"Grid/Type": "mesh", "Grid/Cells": f"{round(30 / h)}, {round(6 / h)}",
-                         "Run/Courant number": 0.6, "Kernel/Type": "UMLS", "Conditions/floor/Boundary ids": "",
-                         "Conditions/floor/Boundaries": "lower y", "Conditions/sides/Boundary ids": "",
-                         "Conditions/sides/Boundaries": "lower x, upper x"})
+        # Without a cutoff a node of next to no mass at the toe gains energy at t = .51: with the default step the run ends.
+        settings.update({"Run/Courant number": 0.6, "Run/Mass cutoff": 1e-4, "Grid/Type": "mesh", "Kernel/Type": "UMLS",
+                         "Grid/Cells": f"{round(30 / h)}, {round(6 / h)}",
+                         "Conditions/floor/Boundary ids": "", "Conditions/floor/Boundaries": "lower y",
+                         "Conditions/sides/Boundary ids": "", "Conditions/sides/Boundaries": "lower x, upper x"})
     return Run("prm/clay_slope.prm", settings, {"grid": grid, "h": h})
 
 
@@ -76,7 +77,9 @@ def figures(results):
     rows = {(row["grid"], row["h"]): row for row in table(results)}
     return [report.Figure(f"h = {h:g}: {name} at {END:g} s, UMLS over B-splines",
                           rows["UMLS", h][name] / rows["B-splines", h][name], 1 - BOUND, 1 + BOUND)
-            for h in SPACINGS for name in MEASURES]
+            for h in SPACINGS for name in MEASURES] + [
+        report.Figure(f"{grid}, h = {h:g}: energy less all work and plastic dissipation, over that of gravity",
+                      rows[grid, h]["energy"], -0.01, 0.01) for h in SPACINGS for grid in GRIDS]
 
 
 def draw(results, path):
