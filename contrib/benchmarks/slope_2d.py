@@ -33,7 +33,7 @@ def run(grid, h):
                 "Output/Grid": "false", "Output/Time interval": 0.25, "Output/Statistics interval": 20,
                 "Output/Particle fields": "velocity, equivalent plastic strain, pressure, displacement, mass"}
     if grid == "UMLS":
-        # Without a cutoff a node of next to no mass at the toe gains energy at t = .51: with the default step the run ends.
+        # Without a cutoff a node of next to no mass at the toe gains energy at t = .51; the default step then ends the run.
         settings.update({"Run/Courant number": 0.6, "Run/Mass cutoff": 1e-4, "Grid/Type": "mesh", "Kernel/Type": "UMLS",
                          "Grid/Cells": f"{round(30 / h)}, {round(6 / h)}",
                          "Conditions/floor/Boundary ids": "", "Conditions/floor/Boundaries": "lower y",
