@@ -43,13 +43,19 @@ def figures(results):
 
 
 def draw(results, path):
-    figure, axis = plt.subplots(figsize=(5, 3.5), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained", sharey=True)
     for result in results:
         if result.status == 0:
             columns = result.statistics()
-            L = columns["total angular momentum z"]
-            axis.semilogy(columns["time"], np.abs(L / L[0] - 1) + 1e-17, lw=0.8, label=result.run.label["kernel"])
-    axis.set(xlabel="time", ylabel="change of angular momentum", title="APIC on triangles")
-    axis.legend()
+            L, momentum = columns["total angular momentum z"], columns["momentum y"] + columns["lost momentum y"]
+            changes = L / L[0] - 1, (momentum - momentum[0]) / (columns["mass"][0] * 0.1)
+            for axis, change in zip(axes, changes):
+                axis.semilogy(columns["time"], np.abs(change) + 1e-17, lw=0.8, label=result.run.label["kernel"])
+    for axis, title, bound in zip(axes, ("angular momentum / first", "momentum y / mass times speed"), (1e-12, 1e-14)):
+        axis.axhline(bound, color="k", ls="--", lw=1, label="bound")
+        axis.set(xlabel="t [s]", title=title, ylim=(5e-18, 1e-11))
+        axis.grid(alpha=0.3)
+        axis.legend(ncol=4, fontsize=8, loc="upper center")
+    axes[0].set_ylabel("change")
     figure.savefig(path, dpi=130)
     plt.close(figure)

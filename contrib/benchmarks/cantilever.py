@@ -15,7 +15,10 @@ TITLE = "cantilever on turned structured and Delaunay meshes: UMLS, C1 UMLS and 
 
 ANGLES = (0, 15, 30, 45)
 LOWER, UPPER = (0, -3), (5, 2)
-SMOOTH = (("structured", 0, 0.1), ("Delaunay", 0, 0.1), ("Delaunay", 45, 0.1), ("Delaunay", 0, 0.05))  # with C1 UMLS
+KERNELS = ("P1", "UMLS", "C1 UMLS")
+SIZES = (0.2, 0.1, 0.05)
+SMOOTH = (("structured", 0, 0.1), ("structured", 45, 0.1), ("Delaunay", 0, 0.1), ("Delaunay", 45, 0.1),
+          ("structured", 0, 0.05), ("Delaunay", 0, 0.05))  # with C1 UMLS
 # True gradients need a better quadrature, and no damping of what is then left of noise.
 SCHEME = {"C1 UMLS": ("FLIP", 4)}  # transfer, particles per cell and direction; all others: TPIC, 2
 SPACINGS = (0.1, 0.05, 0.025, 0.0125)  # of particles
@@ -64,7 +67,9 @@ def runs():
     found = [reference()]
     found += [run("UMLS", kind, angle) for kind in ("structured", "Delaunay") for angle in ANGLES]
     found += [run("C1 UMLS", *where) for where in SMOOTH]
-    return found + [run("UMLS", kind, 0, 0.2) for kind in ("structured", "Delaunay")] + [run("P1", "structured", 0)]
+    asked = {(one.label["kernel"], one.label["mesh"], one.label["angle"], one.label["h"]) for one in found}
+    return found + [run(kernel, kind, 0, h) for kernel in KERNELS for kind in ("structured", "Delaunay") for h in SIZES
+                    if (kernel, kind, 0, h) not in asked]
 
 
 def motion(result):
@@ -101,37 +106,55 @@ def table(results):
 
 def figures(results):
     by = {tuple(result.run.label.values()): compare(result, results) for result in results}
-    found = [report.Figure("UMLS, structured, h = .1: rmse over FEM's lowest", by["UMLS", "structured", 0, 0.1]["rmse"], upper=0.01)]
+    found = [report.Figure("UMLS, structured, h = .1: rmse over FEM's lowest", by["UMLS", "structured", 0, 0.1]["rmse"],
+                           upper=0.01)]
     for kind in ("structured", "Delaunay"):
         lowest = [by["UMLS", kind, angle, 0.1]["lowest"] for angle in ANGLES]
         found.append(report.Figure(f"UMLS, {kind}: spread of the lowest over angles",
                                    (max(lowest) - min(lowest)) / abs(np.mean(lowest)), upper=0.03))
-    found += [report.Figure(f"C1 UMLS, {kind}, {angle} degrees, h = {h:g}: rmse", by["C1 UMLS", kind, angle, h]["rmse"], upper=0.01)
-              for kind, angle, h in SMOOTH]
+    found += [report.Figure(f"C1 UMLS, {kind}, {angle} degrees, h = {h:g}: rmse", by["C1 UMLS", kind, angle, h]["rmse"],
+                            upper=0.01) for kind, angle, h in SMOOTH]
     return found
 
 
 def draw(results, path):
     by = {tuple(result.run.label.values()): result for result in results}
-    figure, axes = plt.subplots(2, 4, figsize=(12, 6), layout="constrained")
-    for row, kind in zip(axes, ("structured", "Delaunay")):
-        for axis, angle in zip(row, (15, 45)):
-            nodes, triangles = meshes.read_triangles(meshes.DIRECTORY / f"cantilever_{kind}_0.1_{angle}.msh")
-            axis.triplot(Triangulation(*nodes.T, triangles), color="0.8", lw=0.3)
-            result = by["UMLS", kind, angle, 0.1]
-            if result.status == 0:
-                particles = result.particles(0.5)
-                drawn = axis.scatter(particles["x"], particles["y"], s=1, c=particles["stress_xx"] / 1e6, vmin=-1, vmax=1,
-                                     cmap="coolwarm", linewidths=0)
-                figure.colorbar(drawn, ax=axis, label="stress xx [MPa]", shrink=0.8)
-            axis.set_title(f"UMLS, {kind}, {angle} degrees, t = .5", fontsize=8)
-            axis.set(xlim=(0, 4.3), ylim=(-1.2, 1.4), aspect="equal")
-        for axis, kernel in zip(row[2:], ("UMLS", "C1 UMLS")):
-            axis.plot(*exact_motion(results[0], 0.05), "k", lw=1.5, label="FEM")
-            for angle in ANGLES:
-                if (kernel, kind, angle, 0.1) in by and by[kernel, kind, angle, 0.1].status == 0:
-                    axis.plot(*motion(by[kernel, kind, angle, 0.1]), "--", lw=0.9, label=f"{angle} degrees")
-            axis.set(title=f"{kernel}, {kind}", xlabel="t", ylabel="u_y of the end")
-            axis.legend(fontsize=6)
+    figure, axes = plt.subplots(2, 4, figsize=(13, 6.5), layout="constrained")
+    shown = [(kernel, *mesh, 0.1) for kernel in KERNELS[1:] for mesh in (("structured", 45), ("Delaunay", 0))]
+    for axis, key in zip(axes[0], shown):
+        nodes, triangles = meshes.read_triangles(meshes.DIRECTORY / f"cantilever_{key[1]}_0.1_{key[2]}.msh")
+        axis.triplot(Triangulation(*nodes.T, triangles), color="0.85", lw=0.3)
+        if by[key].status == 0:
+            particles = by[key].particles(0.5)
+            drawn = axis.scatter(particles["x"], particles["y"], s=4 if key[0] == "UMLS" else 1.5,
+                                 c=particles["stress_xx"] / 1e6, vmin=-0.6, vmax=0.6, cmap="coolwarm", linewidths=0)
+        axis.set_title(f"{key[0]}, {key[1]}, {key[2]} degrees", fontsize=10)
+        axis.set(xlim=(0, 4.2), ylim=(-1.2, 1.6), aspect="equal", xlabel="x [m]")
+    axes[0, 0].set_ylabel("y [m]")
+    figure.colorbar(drawn, ax=axes[0], label="stress xx [MPa], t = .5 s", shrink=0.8, extend="both")
+    colours = dict(zip(ANGLES, ("tab:blue", "tab:orange", "tab:green", "tab:red")))
+    axes[1, 0].plot(*exact_motion(results[0], 0.05), "k", lw=1.5, label="finite elements")
+    axes[1, 0].plot(*motion(by["UMLS", "Delaunay", 0, 0.1]), "--", label="UMLS, Delaunay")
+    axes[1, 0].set(xlabel="t [s]", ylabel="u_y of the end [m]", title="Particles and elements")
+    axes[1, 0].legend(fontsize=8)
+    for axis, kernel in zip(axes[1, 1:], KERNELS[1:]):
+        for (name, kind, angle, h), result in by.items():
+            if (name, h) == (kernel, 0.1) and result.status == 0:
+                t, exact = exact_motion(results[0], h / SCHEME.get(kernel, ("TPIC", 2))[1])
+                axis.plot(t, 100 * (np.interp(t, *motion(result)) - exact) / np.max(np.abs(exact)),
+                          "-" if kind == "structured" else "--", color=colours[angle], lw=1, label=f"{kind}, {angle}")
+        axis.set(xlabel="t [s]", ylabel="less elements, % of the lowest", title=f"{kernel}, h = .1", ylim=(-6, 6))
+        axis.legend(fontsize=7, ncol=2)
+    for kernel, colour in zip(KERNELS, ("0.5", "tab:blue", "tab:red")):
+        for kind, dash in (("structured", "-"), ("Delaunay", "--")):
+            errors = [100 * compare(by[kernel, kind, 0, h], results)["rmse"] for h in SIZES]
+            if not all(map(math.isnan, errors)):
+                axes[1, 3].loglog(SIZES, errors, dash, marker="o", ms=4, color=colour, label=f"{kernel}, {kind}")
+    axes[1, 3].axhline(1, color="k", lw=0.8, ls=":", label="bound, h = .1")
+    axes[1, 3].set(xlabel="h [m]", ylabel="rms error, % of the lowest", title="0 degrees", ylim=(0.1, 4))
+    axes[1, 3].set_xticks(SIZES, [f"{h:g}" for h in SIZES])
+    axes[1, 3].set_yticks((0.1, 0.2, 0.5, 1, 2, 4), ("0.1", "0.2", "0.5", "1", "2", "4"))
+    axes[1, 3].minorticks_off()
+    axes[1, 3].legend(fontsize=7, loc="lower right")
     figure.savefig(path, dpi=130)
     plt.close(figure)

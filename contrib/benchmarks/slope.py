@@ -143,42 +143,71 @@ def figures(results):
 
 def scatter(axis, particles, values, **more):
     order = np.argsort(-particles["z"])
-    return axis.scatter(particles["x"][order], particles["y"][order], c=values[order], s=14 * EDGE, linewidths=0, **more)
+    return axis.scatter(particles["x"][order], particles["y"][order], c=values[order], s=30 * EDGE, linewidths=0, **more)
 
 
 def draw(results, path):
     by = {(result.run.label["grid"], result.run.label["run"]): result for result in results if result.status == 0}
-    figure, axes = plt.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
-    for axis, (kind, title) in zip(axes, (("whole", "strengths of the paper"), ("weak", "half the strengths"))):
-        for grid in GRIDS:
-            if (grid, kind) in by:
-                result = by[grid, kind]
-                times = np.arange(0, result.statistics()["time"][-1] + 1e-9, 0.5)
-                of = moved if kind == "whole" else run_out
-                axis.plot(times, [of(result.particles(time)) for time in times], label=grid)
-        axis.set(xlabel="t [s]", ylabel="largest displacement [m]" if kind == "whole" else "run-out [m]", title=title)
-        axis.legend()
-    figure.savefig(path, dpi=120)
-    plt.close(figure)
-    shown = [(grid, time) for time in (0.5, 1, 1.5) for grid in GRIDS if (grid, "weak") in by]
-    for name, label, field, limits in (("strain", "equivalent plastic strain", "equivalent_plastic_strain", (0, 1)),
-                                       ("pressure", "pressure [Pa]", "pressure", (0, 1e5))):
-        figure, axes = plt.subplots(len(shown) // 2, 2, figsize=(10, 1.2 * len(shown)), layout="constrained", squeeze=False)
-        for axis, (grid, time) in zip(axes.flat, shown):
-            particles = by[grid, "weak"].particles(time)
-            drawn = scatter(axis, particles, particles[field], vmin=limits[0], vmax=limits[1])
-            axis.set(xlim=(0, 18), ylim=(0, 5.5), aspect="equal", xticks=[], yticks=[])
-            axis.set_title(f"{grid}, t = {time} s", fontsize=9)
-        figure.colorbar(drawn, ax=axes, shrink=0.6, label=label, extend="max")
-        figure.savefig(path.parent / f"slope_{name}.png", dpi=110)
-        plt.close(figure)
+    draw_motion(by, path)
+    for name, label, field, limits in (("strain", "equivalent plastic strain", "equivalent_plastic_strain", (0, 2)),
+                                       ("pressure", "pressure [kPa]", "pressure", (0, 100))):
+        draw_states(by, path.parent / f"slope_{name}.png", label, field, limits)
     pairs = [(grid, kind) for grid in GRIDS for kind in ("without F-bar", "whole") if (grid, kind) in by]
     figure, axes = plt.subplots(2, 2, figsize=(10, 4.6), layout="constrained")
     for axis, key in zip(axes.flat, pairs):
         particles = by[key].particles(EARLY)
-        drawn = scatter(axis, particles, particles["pressure"], vmin=-5e4, vmax=1.5e5)
-        axis.set(xlim=(0, 18), ylim=(0, 5.5), aspect="equal", xticks=[], yticks=[])
-        axis.set_title(f"{key[0]}, {'with' if key[1] == 'whole' else 'without'} F-bar, t = {EARLY:g} s", fontsize=9)
-    figure.colorbar(drawn, ax=axes, shrink=0.6, label="pressure [Pa]", extend="both")
+        drawn = scatter(axis, particles, particles["pressure"] / 1e3, vmin=-50, vmax=150)
+        axis.set(xlim=(0, 16), ylim=(0, 5.5), aspect="equal")
+        axis.set_title(f"{key[0]}, {'with' if key[1] == 'whole' else 'without'} F-bar, t = {EARLY:g} s", fontsize=10)
+    label_outer(axes)
+    figure.colorbar(drawn, ax=axes, shrink=0.8, label="pressure [kPa]", extend="both")
     figure.savefig(path.parent / "slope_f_bar.png", dpi=110)
     plt.close(figure)
+
+
+def draw_motion(by, path):
+    figure, axes = plt.subplots(1, 3, figsize=(12, 3.6), layout="constrained")
+    for axis, (kind, of, label, title) in zip(axes, (
+            ("whole", moved, "largest displacement [m]", "strengths of the paper: it stands"),
+            ("weak", moved, "largest displacement [m]", "half the strengths, the first 2 s"),
+            ("weak", run_out, "run-out [m]", "half the strengths"))):
+        values = {}
+        for grid in GRIDS:
+            if (grid, kind) in by:
+                result = by[grid, kind]
+                end = result.statistics()["time"][-1]
+                times = np.arange(0, min(end, 2 if of is moved else end) + 1e-9, 0.5)
+                values[grid] = [of(result.particles(time)) for time in times]
+                axis.plot(times, values[grid], "-" if grid == "UMLS" else "--", label=grid)
+        axis.set(xlabel="t [s]", ylabel=label, title=title, ylim=(0, None))
+        axis.legend()
+    figure.savefig(path, dpi=120)
+    plt.close(figure)
+
+
+def draw_states(by, path, label, field, limits):
+    """Side by side, on as much of the floor as they reach."""
+    if any((grid, "weak") not in by for grid in GRIDS):
+        return
+    last = min(by[grid, "weak"].statistics()["time"][-1] for grid in GRIDS)
+    times = [time for time in (1, 2, 4, 12) if time < last + 1e-3]
+    shown = [[by[grid, "weak"].particles(time) for grid in GRIDS] for time in times]
+    reach = [math.ceil(max(np.max(particles["x"]) for particles in row)) for row in shown]
+    figure, axes = plt.subplots(len(times), 2, figsize=(11, 2.1 * len(times)), layout="constrained", squeeze=False)
+    for line, row, time, end in zip(axes, shown, times, reach):
+        for axis, particles, grid in zip(line, row, GRIDS):
+            values = particles[field] / 1e3 if "kPa" in label else particles[field]
+            drawn = scatter(axis, particles, values, vmin=limits[0], vmax=limits[1])
+            axis.set(xlim=(0, end), ylim=(0, 5.5))
+            axis.set_title(f"{grid}, half the strengths, t = {time} s", fontsize=10)
+    label_outer(axes)
+    figure.colorbar(drawn, ax=axes, shrink=0.6, label=label, extend="max")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def label_outer(axes):
+    for axis in axes[-1]:
+        axis.set_xlabel("x [m]")
+    for axis in axes[:, 0]:
+        axis.set_ylabel("y [m]")

@@ -65,31 +65,39 @@ def figures(results):
 
 def draw(results, path):
     by = {tuple(result.run.label.values()): result for result in results}
-    figure, axes = plt.subplots(2, 4, figsize=(11, 5.2), layout="constrained")
+    figure = plt.figure(figsize=(11, 6), layout="constrained")
+    space = figure.add_gridspec(3, 4, height_ratios=(1, 1, 0.12))
+    axes = np.array([[figure.add_subplot(space[row, column]) for column in range(4)] for row in range(2)])
     shown = by["UMLS", "FLIP", "fine"]
     nodes, triangles = meshes.read_triangles(meshes.DIRECTORY / "disks_fine.msh")
     for axis, time in zip(axes[0], (0, 1.5, 2, 3.25)):
-        axis.triplot(Triangulation(*nodes.T, triangles), color="0.85", lw=0.3)
+        if time == 0:
+            axis.triplot(Triangulation(*nodes.T, triangles), color="0.8", lw=0.3)
         particles = shown.particles(time)
-        drawn = axis.scatter(particles["x"], particles["y"], s=1.5, c=particles["stress_xx"] + particles["stress_yy"], vmin=-400,
-                             vmax=400, cmap="coolwarm", linewidths=0)
+        drawn = axis.scatter(particles["x"], particles["y"], s=1.5, c=particles["stress_xx"] + particles["stress_yy"],
+                             vmin=-400, vmax=400, cmap="coolwarm", linewidths=0)
         axis.set(title=f"t = {time} s", xlim=(-0.15, 1.15), ylim=(-0.15, 1.15), aspect="equal", xticks=[], yticks=[])
-    figure.colorbar(drawn, ax=axes[0], label="stress xx + yy", shrink=0.8)
+    figure.colorbar(drawn, ax=axes[0], label="stress xx + yy [Pa]", shrink=0.8, extend="both")
     for (kernel, transfer, size), result in by.items():
         if result.status != 0:
             continue
         columns = result.statistics()
         K0, name = columns["kinetic energy"][0], f"{kernel}, {transfer}, {size}"
-        dash = "-" if size == "fine" else ":"
+        dash = "-" if size == "fine" else "--"
         axes[1, 0].plot(columns["time"], columns["kinetic energy"] / K0, dash, lw=1, label=name)
         axes[1, 1].plot(columns["time"], (columns["kinetic energy"] + columns["strain energy"]) / K0, dash, lw=1)
         axes[1, 2].semilogy(columns["time"], np.hypot(columns["momentum x"], columns["momentum y"]) + 1e-18, dash, lw=1)
         probe = result.columns("probes.csv")
         axes[1, 3].plot(probe["time"], probe["centre_stress_xx"], dash, lw=1)
-    axes[1, 0].set(title="kinetic energy / first", xlabel="t [s]")
-    axes[1, 1].set(title="kinetic and strain energy / first", xlabel="t [s]", ylim=(0.8, 1.05))
-    axes[1, 2].set(title="|momentum|", xlabel="t [s]")
-    axes[1, 3].set(title="stress xx, centre of the lower disk", xlabel="t [s]")
-    axes[1, 0].legend(fontsize=5)
+    axes[1, 0].plot((3.5, 3.5), (0.84, 0.9), "k", lw=5, solid_capstyle="butt", label="bound of UMLS, FLIP, fine",
+                    clip_on=False)
+    for axis, title in zip(axes[1], ("kinetic energy / first", "kinetic + strain energy / first", "|momentum| [kg m/s]",
+                                     "stress xx, lower centre [Pa]")):
+        axis.set_title(title, fontsize=10)
+        axis.set(xlabel="t [s]", xlim=(0, 3.5))
+    axes[1, 1].set_ylim(0.8, 1.02)
+    legend = figure.add_subplot(space[2, :])
+    legend.axis("off")
+    legend.legend(*axes[1, 0].get_legend_handles_labels(), loc="center", ncol=5, fontsize=9, frameon=False)
     figure.savefig(path, dpi=130)
     plt.close(figure)
