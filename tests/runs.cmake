@@ -9,7 +9,7 @@ set(TALUS_RUN_ENVIRONMENT "${TALUS_TEST_ENVIRONMENT}" "TALUS_FORK_SERVER_LIBRARY
 # talus_add_run(NAME RANKS COMMAND...): a test that keeps `ranks` cores busy.
 function(talus_add_run name ranks)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${ARGN})
-  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 120
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT 300
     ENVIRONMENT "${TALUS_RUN_ENVIRONMENT}")
 endfunction()
 
