@@ -114,7 +114,7 @@ namespace Talus
      * A plane of symmetry: along its normal velocities *and accelerations* of nodes at it and beyond are zero. What
      * particles on one side alone bring to such a node is of the order of the spacing and no velocity of the plane;
      * slip hands its loss to transfers that carry increments (FLIP, CPLS), which costs half an order at the plane.
-     * Test: tests/boundary/main.cc; tests/regression/verification.py.
+     * Test: tests/boundary/conditions.cc; tests/regression/verification.py.
      */
     template <int dim>
     class Symmetry : public Slip<dim>
@@ -131,7 +131,7 @@ namespace Talus
      * Coulomb friction on faces of the grid's box. A node that presses against a face loses the normal part of its
      * velocity relative to the wall, and of the tangential part at most mu times as much:
      * @f[ \Delta v_t = -\min(\mu \, \Delta v_n, |v_t|) \, v_t / |v_t| . @f]
-     * One that moves away is free. Test: tests/boundary/main.cc, tests/loads (a block on an incline).
+     * One that moves away is free. Test: tests/boundary/conditions.cc, tests/loads (a block on an incline).
      */
     template <int dim>
     class Friction : public Condition<dim>

@@ -3,7 +3,8 @@ import os
 import shutil
 import struct
 
-from cases import BOX, Case, FROM_FILE, MESH, msh, POINTS, POINTS_ENTRY
+from cases import BOX, Case, MESH, POINTS, POINTS_ENTRY
+from meshes import FROM_FILE, msh
 
 try:
     import h5py

@@ -9,8 +9,8 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.dirname(HERE), HERE]
+from inputs import points, refused, text_of, warned, write  # noqa: E402
 from program import columns_of, last_particles, main  # noqa: E402
-from run import points, refused, text_of, warned, write  # noqa: E402
 
 MESH = {2: [("set Spacing = 0.125", "set Type = mesh\n  set Cells = 16, 16")],
         3: [("set Spacing = 0.125", "set Type = mesh\n  set Cells = 8, 8, 8")]}

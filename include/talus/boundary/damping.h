@@ -10,7 +10,7 @@ namespace Talus
    * @f[ -\alpha |f_i| \, \mathrm{sign}(v_i^n) , @f]
    * so that a motion loses the same share of its energy in each period whatever its frequency, and nothing is left of
    * it in equilibrium. Components that a condition has set in this step are not damped: their force is a reaction.
-   * Test: tests/boundary/main.cc, tests/loads (decay of a bar).
+   * Test: tests/boundary/damping.cc, tests/loads (decay of a bar).
    */
   template <int dim>
   class LocalDamping

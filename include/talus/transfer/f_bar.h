@@ -17,7 +17,7 @@ namespace Talus
    * stays. The change of volume is averaged, not the volume: what the average does not see is never seen, wherever
    * particles go. Zhao, Jiang & Choo (2023) average J, and do not average the stress. The weights are those of
    * KeptWeights, found once a step; what is missing at the domain's faces is divided out. Theory:
-   * doc/materials.md. Test: tests/transfer/averaging.cc.
+   * doc/materials.md. Test: tests/transfer/f_bar.cc.
    */
   template <int dim>
   class FBar

@@ -53,7 +53,7 @@ namespace Talus
   /**
    * The nodes around the particles and their weights at one moment, for sums that follow while particles move: products
    * over the axes of a box grid, without correction at the domain's faces so that none is negative, or lists, without
-   * gradients. Test: tests/transfer/averaging.cc.
+   * gradients. Test: tests/transfer/f_bar.cc.
    */
   template <int dim>
   class KeptWeights
