@@ -101,7 +101,8 @@ void overlaps()
   taken<dim>("a ball on a box", box_between<dim>({{0.25, 0.25, 0.25}}, {{1.5, 0.75, 1.5}}), ball_at<dim>(1, 0.25));
   taken<dim>("lists that touch", list_of_points<dim>("list_e", 0.5, 8, 0.0625),
              list_of_points<dim>("list_f", 1, 8, 0.0625));
-  for (const std::string name : {"in_a_box", "list_a", "list_b", "list_c", "list_d", "list_e", "list_f"})
+  for (const std::string name :
+       {"in_a_box", "list_a", "list_b", "list_c", "list_d", "list_e", "list_f", "corner_a", "corner_b"})
     std::remove((name + "_" + std::to_string(dim) + "_" +
                  std::to_string(Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)) + ".txt")
                   .c_str());

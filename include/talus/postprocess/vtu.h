@@ -12,7 +12,7 @@ namespace Talus
   /**
    * deal.II's text of one rank's part of a VTU file, with places as Float64: in single precision particles .25 m apart
    * at map coordinates of 4.6e6 m share their places. So are the data called `exact`, whole numbers that single
-   * precision would round beyond 2^24. Test: tests/postprocess/vtu.cc.
+   * precision would round beyond 2^24. Test: tests/postprocess/output.cc.
    */
   template <int dim, int spacedim>
   std::string vtu_piece(
