@@ -187,11 +187,11 @@ namespace Talus
      * impulse in the last step is counted as lost. The impulse counts most: towards
      * the end of a B-spline's support its gradient is far larger than its value.
      */
-    double mass_floor = 0;
+    double                 mass_floor = 0;
+    dealii::Tensor<1, dim> lost_momentum;
 
     /** What the user should be told of it before the run takes its memory. */
     std::vector<EntryError> remarks;
-    dealii::Tensor<1, dim>  lost_momentum;
 
     dealii::Point<dim> lower, upper; // of a box around the domain
 
