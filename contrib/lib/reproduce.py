@@ -7,11 +7,19 @@
     draw(results, path)   writes a figure, or nothing if too many runs have failed
 
 where `results` has a runs.Result for each run, failed ones too. A file shear_3d.py is the benchmark shear-3d.
+
+result.json holds the acceptance figures, with what contrib/report says of where they come from.
 """
 import argparse
+import dataclasses
 import importlib
+import json
 import pathlib
+import platform
+import re
+import subprocess
 import sys
+import time
 
 import report
 import runs
@@ -42,20 +50,44 @@ def write_rendition(source, target):
                 return
 
 
+def origin():
+    """Version of the program, date and machine."""
+    version = subprocess.run([str(runs.TALUS), "--version"], stdout=subprocess.PIPE, text=True).stdout.strip()
+    try:
+        found = re.search(r"^model name\s*:\s*(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.M)
+    except OSError:
+        found = None
+    return {"version": version, "date": time.strftime("%Y-%m-%d"), "machine": found[1] if found else platform.processor()}
+
+
+def make_runs(benchmark, directory, arguments):
+    planned = benchmark.runs()  # none where a benchmark only evaluates formulas
+    if arguments.evaluate:
+        return [runs.recall(run, directory) for run in planned]
+    return runs.execute_all(planned, directory, arguments.jobs, arguments.ranks) if planned else []
+
+
+def write_result(directory, name, title, results, figures):
+    (directory / "result.json").write_text(json.dumps(
+        {"name": name, "title": title, **origin(), "runs": len(results), "seconds": sum(result.seconds for result in results),
+         "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1, default=float) + "\n")
+
+
 def reproduce(name, arguments):
+    """Makes the runs of a benchmark, or takes those that are there; prints, draws, and returns 1 where a figure fails."""
     benchmark = load(name)
     directory = pathlib.Path(arguments.output or runs.ROOT / "reproduce" / name)
     directory.mkdir(parents=True, exist_ok=True)
-    for old in (directory / "table.csv", *directory.glob("*.png")):
+    for old in (directory / "table.csv", directory / "result.json", *directory.glob("*.png")):
         old.unlink(missing_ok=True)
-    planned = benchmark.runs()  # none where a benchmark only evaluates formulas
-    results = runs.execute_all(planned, directory / "runs", arguments.jobs, arguments.ranks) if planned else []
+    results = make_runs(benchmark, directory / "runs", arguments)
     rows = benchmark.table(results)
     report.write_csv(directory / "table.csv", rows)
     print("\n" + report.format_table(rows) + "\n")
     figures = benchmark.figures(results)
     for figure in figures:
         print(figure.line())
+    write_result(directory, name, benchmark.TITLE, results, figures)
     benchmark.draw(results, directory / "figure.png")
     if arguments.doc:
         for source in directory.glob("*.png"):  # figure.png, and what a benchmark has drawn beside it
@@ -73,6 +105,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=runs.default_jobs(), help="runs at a time (%(default)s)")
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run (%(default)s)")
     parser.add_argument("--output", help="directory for the results (reproduce/NAME)")
+    parser.add_argument("--evaluate", action="store_true", help="make no run: take those that an earlier call has left")
     parser.add_argument("--doc", action="store_true", help="also write the figures, reduced, to doc/figures")
     arguments = parser.parse_args()
     if arguments.list:

@@ -2,6 +2,7 @@
 import concurrent.futures
 import csv
 import dataclasses
+import json
 import math
 import os
 import pathlib
@@ -117,7 +118,19 @@ def execute(run, directory, ranks=1):
                               env={**os.environ, "OMP_NUM_THREADS": "1"},
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     (directory / "output.txt").write_text(finished.stdout)
-    return Result(run, directory, finished.returncode, time.perf_counter() - start)
+    result = Result(run, directory, finished.returncode, time.perf_counter() - start)
+    (directory / "run.json").write_text(json.dumps({"status": result.status, "seconds": round(result.seconds, 2)}) + "\n")
+    return result
+
+
+def recall(run, directory):
+    """What an earlier call of `execute` has left."""
+    directory = pathlib.Path(directory) / run.name
+    try:
+        ended = json.loads((directory / "run.json").read_text())
+    except FileNotFoundError:
+        stop(f"there is no '{directory}/run.json': this run has not been made, or not to its end. Leave --evaluate out.")
+    return Result(run, directory, ended["status"], ended["seconds"])
 
 
 def execute_all(runs, directory, jobs=2, ranks=1):
