@@ -45,8 +45,10 @@ foreach(ranks 1 2)
     ${PROJECT_BINARY_DIR} ${work}/install.${ranks} ${ranks} ${MPIRUN})
 endforeach()
 
+talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR} ${work}/plot)
+
 # Help of the commands, which needs no build and makes none.
-foreach(command fingerprint install-dependencies quickstart report reproduce test throughput)
+foreach(command fingerprint install-dependencies plot quickstart report reproduce test throughput)
   add_test(NAME contrib.help.${command} COMMAND ${PROJECT_SOURCE_DIR}/contrib/${command} --help)
   set_tests_properties(contrib.help.${command} PROPERTIES TIMEOUT 60 ENVIRONMENT "TALUS_BUILD=${work}/no build"
     PASS_REGULAR_EXPRESSION "contrib/${command}|Installs" FAIL_REGULAR_EXPRESSION "cmake|ninja")
