@@ -18,9 +18,8 @@ def commands(path):
     found = []
     with open(path) as page:
         for line in page:
-            words = shlex.split(line, comments=True) if line.startswith("    ") and "|" not in line else []
-            if words and words[0].startswith(("build/", "contrib/", "mpirun")):
-                found.append(words)
+            if line.startswith(("    build/", "    contrib/", "    mpirun ")):
+                found.append(shlex.split(line, comments=True))
     return found
 
 

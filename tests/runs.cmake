@@ -48,11 +48,12 @@ endforeach()
 talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR} ${work}/plot)
 
 # What the pages print can be typed.
-foreach(page README)
+foreach(page README doc/tour)
   string(REPLACE / . name ${page})
   talus_add_run(commands.${name} 2 ${CMAKE_CURRENT_SOURCE_DIR}/commands.py ${page}.md ${PROJECT_BINARY_DIR}
     ${work}/commands.${name} ${MPIRUN})
 endforeach()
+set_tests_properties(commands.doc.tour PROPERTIES LABELS long)
 
 # Help of the commands, which needs no build and makes none.
 foreach(command fingerprint install-dependencies plot quickstart report reproduce test throughput)

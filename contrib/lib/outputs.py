@@ -16,6 +16,7 @@ class Particles:
     def __init__(self, path, time):
         import meshio  # here, as tables need no reader of .vtu files
         mesh = meshio.read(path)
+        self.directory = pathlib.Path(path).resolve().parent
         self.time, self.places, self.fields = time, mesh.points, mesh.point_data
         self.dim = 2 if np.all(self.places[:, 2] == 0) else 3
 

@@ -72,7 +72,8 @@ def draw_particles(axis, particles, arguments, limits, window):
     axis.set_xlim(window[0], window[1])
     axis.set_ylim(window[2], window[3])
     axis.set_aspect("equal")
-    axis.set_title(f"t = {particles.time:.4g}", fontsize=10)
+    name = f"{particles.directory.name}, " if len(arguments.directories) > 1 else ""
+    axis.set_title(f"{name}t = {particles.time:.4g}", fontsize=10)
     return drawn
 
 
