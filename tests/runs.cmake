@@ -56,7 +56,7 @@ endforeach()
 set_tests_properties(commands.doc.tour PROPERTIES LABELS long)
 
 # Help of the commands, which needs no build and makes none.
-foreach(command fingerprint install-dependencies plot quickstart report reproduce test throughput)
+foreach(command fingerprint install-dependencies manual plot quickstart report reproduce test throughput)
   add_test(NAME contrib.help.${command} COMMAND ${PROJECT_SOURCE_DIR}/contrib/${command} --help)
   set_tests_properties(contrib.help.${command} PROPERTIES TIMEOUT 60 ENVIRONMENT "TALUS_BUILD=${work}/no build"
     PASS_REGULAR_EXPRESSION "contrib/${command}|Installs" FAIL_REGULAR_EXPRESSION "cmake|ninja")
