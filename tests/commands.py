@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SLOW = ("contrib/manual", "contrib/quickstart", "contrib/test", "contrib/report", "contrib/throughput", "contrib/reproduce")
+SLOW = ("contrib/gallery", "contrib/manual", "contrib/quickstart", "contrib/test", "contrib/report", "contrib/throughput", "contrib/reproduce")
 
 
 def commands(path):

@@ -48,15 +48,15 @@ endforeach()
 talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR} ${work}/plot)
 
 # What the pages print can be typed.
-foreach(page README doc/tour)
+foreach(page README doc/tour doc/gallery)
   string(REPLACE / . name ${page})
   talus_add_run(commands.${name} 2 ${CMAKE_CURRENT_SOURCE_DIR}/commands.py ${page}.md ${PROJECT_BINARY_DIR}
     ${work}/commands.${name} ${MPIRUN})
 endforeach()
-set_tests_properties(commands.doc.tour PROPERTIES LABELS long)
+set_tests_properties(commands.doc.tour commands.doc.gallery PROPERTIES LABELS long)
 
 # Help of the commands, which needs no build and makes none.
-foreach(command fingerprint install-dependencies manual plot quickstart report reproduce test throughput)
+foreach(command fingerprint gallery install-dependencies manual plot quickstart report reproduce test throughput)
   add_test(NAME contrib.help.${command} COMMAND ${PROJECT_SOURCE_DIR}/contrib/${command} --help)
   set_tests_properties(contrib.help.${command} PROPERTIES TIMEOUT 60 ENVIRONMENT "TALUS_BUILD=${work}/no build"
     PASS_REGULAR_EXPRESSION "contrib/${command}|Installs" FAIL_REGULAR_EXPRESSION "cmake|ninja")

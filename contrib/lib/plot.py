@@ -13,7 +13,6 @@ import outputs  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
 
 FRAMES_PER_SECOND = 12
-MOST_PANELS = 12
 
 
 def chosen(directory, time):
@@ -100,11 +99,11 @@ def plot_particles(arguments, target):
     aspect = (window[3] - window[2]) / (window[1] - window[0])
     if target.suffix in (".gif", ".mp4"):
         return animate(states, arguments, limits, window, target)
-    if len(states) > MOST_PANELS:
-        print(f"{MOST_PANELS} of {len(states)} outputs, evenly chosen; an animation (--output plot.gif) shows all.")
-        states = [states[k] for k in np.linspace(0, len(states) - 1, MOST_PANELS).round().astype(int)]
+    if len(states) > arguments.panels:
+        print(f"{arguments.panels} of {len(states)} outputs, evenly chosen; an animation (--output plot.gif) shows all.")
+        states = [states[k] for k in np.linspace(0, len(states) - 1, arguments.panels).round().astype(int)]
     n = len(states)
-    columns = min(n, 4 if aspect > 0.4 else 2)
+    columns = min(n, 4 if aspect > 0.8 else 3 if aspect > 0.4 else 2)
     rows = -(-n // columns)
     width = 9. / columns
     height = min(8., (1 if columns == 1 else 0.8) * width * aspect + 0.5)
@@ -180,6 +179,7 @@ def parse_arguments():
     parser.add_argument("--field", default="von Mises stress", help="of the particles: a scalar, velocity_x, or a vector's "
                         "length (%(default)s)")
     parser.add_argument("--time", default="last", help="the output nearest to this time, last, or all (%(default)s)")
+    parser.add_argument("--panels", type=int, default=12, help="at most so many outputs beside each other (%(default)s)")
     parser.add_argument("--cut", help="in 3D, only what lies in a plane: z=0.5")
     parser.add_argument("--range", help="of the colours: 0,1e5")
     parser.add_argument("--colours", default="viridis", help="a colour map of matplotlib (%(default)s)")
