@@ -47,6 +47,8 @@ endforeach()
 
 talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR} ${work}/plot)
 
+talus_add_run(help 1 ${CMAKE_CURRENT_SOURCE_DIR}/help.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR})
+
 # What the pages print can be typed.
 foreach(page README doc/tour doc/gallery)
   string(REPLACE / . name ${page})
