@@ -27,6 +27,7 @@ from PIL import Image
 
 BENCHMARKS = runs.ROOT / "contrib" / "benchmarks"
 FIGURES = runs.ROOT / "doc" / "figures"
+RESULTS = runs.ROOT / "doc" / "results"
 LARGEST = 80000  # bytes of a figure in doc/
 
 
@@ -67,10 +68,14 @@ def make_runs(benchmark, directory, arguments):
     return runs.execute_all(planned, directory, arguments.jobs, arguments.ranks) if planned else []
 
 
-def write_result(directory, name, title, results, figures):
-    (directory / "result.json").write_text(json.dumps(
+def write_result(directory, name, title, results, figures, is_for_doc):
+    text = json.dumps(
         {"name": name, "title": title, **origin(), "runs": len(results), "seconds": sum(result.seconds for result in results),
-         "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1, default=float) + "\n")
+         "figures": [dataclasses.asdict(figure) for figure in figures]}, indent=1, default=float) + "\n"
+    (directory / "result.json").write_text(text)
+    if is_for_doc:
+        RESULTS.mkdir(exist_ok=True)
+        (RESULTS / f"{name}.json").write_text(text)
 
 
 def reproduce(name, arguments):
@@ -87,7 +92,7 @@ def reproduce(name, arguments):
     figures = benchmark.figures(results)
     for figure in figures:
         print(figure.line())
-    write_result(directory, name, benchmark.TITLE, results, figures)
+    write_result(directory, name, benchmark.TITLE, results, figures, arguments.doc)
     benchmark.draw(results, directory / "figure.png")
     if arguments.doc:
         for source in directory.glob("*.png"):  # figure.png, and what a benchmark has drawn beside it
@@ -106,7 +111,8 @@ def main():
     parser.add_argument("--ranks", type=int, default=1, help="MPI ranks of each run (%(default)s)")
     parser.add_argument("--output", help="directory for the results (reproduce/NAME)")
     parser.add_argument("--evaluate", action="store_true", help="make no run: take those that an earlier call has left")
-    parser.add_argument("--doc", action="store_true", help="also write the figures, reduced, to doc/figures")
+    parser.add_argument("--doc", action="store_true", help="also write the figures, reduced, to doc/figures, and the result to "
+                        "doc/results")
     arguments = parser.parse_args()
     if arguments.list:
         for name in names():

@@ -81,13 +81,43 @@ def summary_row(name, result):
             f'<td class="number">{duration(result["seconds"])}</td></tr>')
 
 
-def read(directory):
-    path = directory / "result.json"
+def read(path):
     return json.loads(path.read_text()) if path.exists() else None
 
 
+def markdown_section(name, result):
+    if result is None:
+        return [f"### {name}", "", "No result is kept.", ""]
+    title = reproduce.load(name).TITLE
+    lines = [f"### {name}", "", f"{title[0].upper()}{title[1:]}. {result['runs']} runs, {duration(result['seconds'])}; {result['version']}; "
+             f"{result['date']}; {result['machine']}.", "", "| claim | found | bound | |", "|---|---|---|---|"]
+    lines += [f"| {figure['name'].replace('|', '&#124;')} | {number(figure['value'])} {figure['unit']} | {bound(figure)} | "
+              f"{'pass' if passes(figure) else '**fail**'} |" for figure in result["figures"]]
+    if (reproduce.FIGURES / f"{name}.png").exists():
+        lines += ["", f"![{name}](figures/{name}.png)"]
+    return lines + [""]
+
+
+def markdown(found):
+    """doc/report.md: the results that are kept in doc/results."""
+    lines = ["# Verification: the latest results", "", "Written by `contrib/report --doc` from what `contrib/reproduce NAME --doc` has left in "
+             "`doc/results`. What the papers claim,", "and why figures differ: [benchmarks](benchmarks.md), [shear](shear.md), [cpls](cpls.md), "
+             "[umls](umls.md).", "", "| benchmark | within bounds | time | commit, date |", "|---|---|---|---|"]
+    for _, names in PAPERS:
+        for name in names:
+            result = found[name]
+            lines.append(f"| [{name}](#{name}) | no result is kept | | |" if result is None else
+                         f"| [{name}](#{name}) | {sum(map(passes, result['figures']))} of {len(result['figures'])} | "
+                         f"{duration(result['seconds'])} | {result['version'].split('commit ')[-1].split(')')[0]}, {result['date']} |")
+    for title, names in PAPERS:
+        lines += ["", f"## {title}", ""]
+        for name in names:
+            lines += markdown_section(name, found[name])
+    return "\n".join(lines).rstrip() + "\n"
+
+
 def page(output):
-    found = {name: read(output / name) for _, names in PAPERS for name in names}
+    found = {name: read(output / name / "result.json") for _, names in PAPERS for name in names}
     n_figures = sum(len(result["figures"]) for result in found.values() if result)
     n_passed = sum(passes(figure) for result in found.values() if result for figure in result["figures"])
     parts = [f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Talus: verification</title>'
@@ -109,6 +139,7 @@ def parse_arguments():
     parser.add_argument("names", nargs="*", metavar="NAME", help="these benchmarks alone; the page shows what is there of others")
     parser.add_argument("--quick", action="store_true", help=f"those that take minutes: {', '.join(QUICK)}")
     parser.add_argument("--evaluate", action="store_true", help="make no run: take those that earlier calls have left")
+    parser.add_argument("--doc", action="store_true", help="also renew doc/report.md, and the results and figures in doc that it shows")
     parser.add_argument("--output", default=runs.ROOT / "reproduce", type=pathlib.Path,
                         help="directory of the results, and of index.html (reproduce)")
     parser.add_argument("--jobs", type=int, default=runs.default_jobs(), help="runs at a time (%(default)s)")
@@ -128,11 +159,13 @@ def main():
         if arguments.evaluate and not (arguments.output / name / "runs").exists() and reproduce.load(name).runs():
             continue  # the page says that it has not been run
         print(f"\n{name}: {reproduce.load(name).TITLE}", flush=True)
-        failed += reproduce.reproduce(name, argparse.Namespace(**{**vars(arguments), "output": arguments.output / name,
-                                                                  "doc": False}))
+        failed += reproduce.reproduce(name, argparse.Namespace(**{**vars(arguments), "output": arguments.output / name}))
     target = arguments.output / "index.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page(arguments.output))
+    if arguments.doc:
+        kept = {name: read(reproduce.RESULTS / f"{name}.json") for _, names in PAPERS for name in names}
+        (runs.ROOT / "doc" / "report.md").write_text(markdown(kept))
     print(f"\n{target} shows all of them; {failed} of {len(arguments.names)} benchmarks have a figure out of its bounds.")
     return 1 if failed else 0
 
