@@ -33,9 +33,11 @@ def in_slab(particles, cut):
     return is_near, tuple(k for k in range(3) if k != d)
 
 
-def project(x):
+def project(x, up):
     """Seen from the front, the right and above: horizontal, vertical, nearness."""
     a, b = np.radians(30), np.radians(25)
+    if up == "y":
+        x = np.stack([x[:, 0], -x[:, 2], x[:, 1]], axis=1)
     turned = np.cos(a) * x[:, 0] - np.sin(a) * x[:, 1]
     depth = np.sin(a) * x[:, 0] + np.cos(a) * x[:, 1]
     return turned, np.cos(b) * x[:, 2] + np.sin(b) * depth, np.sin(b) * x[:, 2] - np.cos(b) * depth
@@ -46,7 +48,7 @@ def squares(u, v, side):
     return np.stack([np.stack([u + s * half, v + t * half], axis=1) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))], axis=1)
 
 
-def polygons(particles, cut):
+def polygons(particles, cut, up):
     """Corners (n, 4, 2) of what is seen, from back to front, and which particles these are."""
     if particles.dim == 2:
         return particles.domains(), np.arange(len(particles.places))
@@ -56,13 +58,13 @@ def polygons(particles, cut):
         if len(order) == 0:
             sys.exit(f"contrib/plot: no particle lies at {cut}.")
         return particles.domains(axes)[order], order
-    u, v, nearness = project(particles.places)
+    u, v, nearness = project(particles.places, up)
     order = np.argsort(nearness)
     return squares(u[order], v[order], 1.2 * particles.side()[order]), order
 
 
 def draw_particles(axis, particles, arguments, limits, window):
-    corners, order = polygons(particles, arguments.cut)
+    corners, order = polygons(particles, arguments.cut, arguments.up)
     values = particles.field(arguments.field)[order]
     drawn = PolyCollection(corners, array=values, cmap=arguments.colours, edgecolors="face", linewidths=0.4,
                            rasterized=len(order) > 20000)
@@ -85,8 +87,8 @@ def common_limits(states, arguments):
     return (low, high) if high > low else (low - 0.5, low + 0.5)
 
 
-def common_window(states, cut):
-    corners = np.concatenate([polygons(state, cut)[0].reshape(-1, 2) for state in states])
+def common_window(states, cut, up):
+    corners = np.concatenate([polygons(state, cut, up)[0].reshape(-1, 2) for state in states])
     low, high = corners.min(axis=0), corners.max(axis=0)
     margin = 0.03 * max(high - low)
     return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
@@ -95,7 +97,7 @@ def common_window(states, cut):
 def plot_particles(arguments, target):
     states = [outputs.Particles(path, time) for directory in arguments.directories
               for time, path in chosen(directory, arguments.time)]
-    limits, window = common_limits(states, arguments), common_window(states, arguments.cut)
+    limits, window = common_limits(states, arguments), common_window(states, arguments.cut, arguments.up)
     aspect = (window[3] - window[2]) / (window[1] - window[0])
     if target.suffix in (".gif", ".mp4"):
         return animate(states, arguments, limits, window, target)
@@ -181,6 +183,7 @@ def parse_arguments():
     parser.add_argument("--time", default="last", help="the output nearest to this time, last, or all (%(default)s)")
     parser.add_argument("--panels", type=int, default=12, help="at most so many outputs beside each other (%(default)s)")
     parser.add_argument("--cut", help="in 3D, only what lies in a plane: z=0.5")
+    parser.add_argument("--up", choices=("y", "z"), default="z", help="in 3D, the axis that points up (%(default)s)")
     parser.add_argument("--range", help="of the colours: 0,1e5")
     parser.add_argument("--colours", default="viridis", help="a colour map of matplotlib (%(default)s)")
     parser.add_argument("--statistics", metavar="COLUMNS", help="columns of statistics.csv over time, with commas")
