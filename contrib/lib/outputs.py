@@ -59,11 +59,14 @@ class Particles:
         """Corners (n, 4, 2) of the particles' parallelograms in a plane; squares where F has not been written."""
         F, x = self.deformation([AXES[k] for k in axes]), self.places[:, axes]
         if F is None:
-            edges = np.eye(2)[None] * self.side()[:, None, None] / 2
-        else:
-            edges = np.transpose(F, (0, 2, 1)) * self.start_side()[:, None, None] / 2
-        corners = [x + s * edges[:, 0] + t * edges[:, 1] for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-        return np.stack(corners, axis=1)
+            return parallelograms(x, np.eye(2) * self.side()[:, None, None])
+        return parallelograms(x, np.transpose(F, (0, 2, 1)) * self.start_side()[:, None, None])
+
+
+def parallelograms(centres, edges):
+    """Corners (n, 4, 2), one after the other around; edges (n, 2, 2): one edge a row."""
+    corners = [centres + s * edges[:, 0] + t * edges[:, 1] for s, t in ((-.5, -.5), (.5, -.5), (.5, .5), (-.5, .5))]
+    return np.stack(corners, axis=1)
 
 
 def series(directory):
@@ -108,5 +111,5 @@ def spacing(directory):
     text = (pathlib.Path(directory) / "parameters.prm").read_text()
     found = re.search(r"^subsection Grid$.*?^\s*set Spacing\s*=\s*([0-9.eE+-]+)", text, re.M | re.S)
     if not found:
-        sys.exit(f"contrib/plot: '{directory}/parameters.prm' has no spacing of the grid.")
+        sys.exit(f"contrib/plot: '{directory}/parameters.prm' has no 'Spacing' of the grid: runs that give 'Cells' cannot be put in order.")
     return float(found[1])

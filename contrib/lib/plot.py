@@ -24,13 +24,10 @@ def chosen(directory, time):
 
 
 def in_slab(particles, cut):
-    """Those within half a particle of a plane like `z=0.5`, and the two axes that are seen."""
-    if not cut:
-        return np.ones(len(particles.places), bool), (0, 1)
-    axis, _, value = cut.partition("=")
-    d = outputs.AXES.index(axis.strip())
-    is_near = np.abs(particles.places[:, d] - float(value)) <= 0.5 * particles.side() * (1 + 1e-9)
-    return is_near, tuple(k for k in range(3) if k != d)
+    """Those within half a particle of a plane (axis, value), and the two axes that are seen."""
+    axis, value = cut
+    is_near = np.abs(particles.places[:, axis] - value) <= 0.5 * particles.side() * (1 + 1e-9)
+    return is_near, tuple(k for k in range(3) if k != axis)
 
 
 def project(x, up):
@@ -43,11 +40,6 @@ def project(x, up):
     return turned, np.cos(b) * x[:, 2] + np.sin(b) * depth, np.sin(b) * x[:, 2] - np.cos(b) * depth
 
 
-def squares(u, v, side):
-    half = side / 2
-    return np.stack([np.stack([u + s * half, v + t * half], axis=1) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))], axis=1)
-
-
 def polygons(particles, cut, up):
     """Corners (n, 4, 2) of what is seen, from back to front, and which particles these are."""
     if particles.dim == 2:
@@ -56,11 +48,12 @@ def polygons(particles, cut, up):
         seen, axes = in_slab(particles, cut)
         order = np.flatnonzero(seen)
         if len(order) == 0:
-            sys.exit(f"contrib/plot: no particle lies at {cut}.")
+            sys.exit(f"contrib/plot: no particle lies at {outputs.AXES[cut[0]]}={cut[1]:g}.")
         return particles.domains(axes)[order], order
     u, v, nearness = project(particles.places, up)
     order = np.argsort(nearness)
-    return squares(u[order], v[order], 1.2 * particles.side()[order]), order
+    sides = 1.2 * particles.side()[order]  # so that no gap is left between those of the surface
+    return outputs.parallelograms(np.stack([u, v], axis=1)[order], np.eye(2) * sides[:, None, None]), order
 
 
 def draw_particles(axis, particles, arguments, limits, window):
@@ -80,7 +73,7 @@ def draw_particles(axis, particles, arguments, limits, window):
 
 def common_limits(states, arguments):
     if arguments.range:
-        return [float(value) for value in arguments.range.split(",")]
+        return arguments.range
     values = np.concatenate([state.field(arguments.field) for state in states])
     values = values[np.isfinite(values)]
     low, high = np.percentile(values, (0.5, 99.5)) if len(values) else (0, 1)
@@ -95,15 +88,16 @@ def common_window(states, cut, up):
 
 
 def plot_particles(arguments, target):
-    states = [outputs.Particles(path, time) for directory in arguments.directories
-              for time, path in chosen(directory, arguments.time)]
+    found = [entry for directory in arguments.directories for entry in chosen(directory, arguments.time)]
+    is_film = target.suffix in (".gif", ".mp4")
+    if len(found) > arguments.panels and not is_film:
+        print(f"{arguments.panels} of {len(found)} outputs, evenly chosen; an animation (--output plot.gif) shows all.")
+        found = [found[k] for k in np.linspace(0, len(found) - 1, arguments.panels).round().astype(int)]
+    states = [outputs.Particles(path, time) for time, path in found]
     limits, window = common_limits(states, arguments), common_window(states, arguments.cut, arguments.up)
     aspect = (window[3] - window[2]) / (window[1] - window[0])
-    if target.suffix in (".gif", ".mp4"):
+    if is_film:
         return animate(states, arguments, limits, window, target)
-    if len(states) > arguments.panels:
-        print(f"{arguments.panels} of {len(states)} outputs, evenly chosen; an animation (--output plot.gif) shows all.")
-        states = [states[k] for k in np.linspace(0, len(states) - 1, arguments.panels).round().astype(int)]
     n = len(states)
     columns = min(n, 4 if aspect > 0.8 else 3 if aspect > 0.4 else 2)
     rows = -(-n // columns)
@@ -175,6 +169,17 @@ def plot_convergence(arguments, target):
     figure.savefig(target, dpi=arguments.dpi)
 
 
+def plane(text):
+    """Axis and value of `z=0.5`."""
+    axis, _, value = text.partition("=")
+    return outputs.AXES.index(axis.strip()), float(value)
+
+
+def interval(text):
+    low, high = (float(value) for value in text.split(","))
+    return low, high
+
+
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="contrib/plot", description=__doc__)
     parser.add_argument("directories", nargs="+", metavar="DIRECTORY", help="where a run has written its output")
@@ -182,10 +187,10 @@ def parse_arguments():
                         "length (%(default)s)")
     parser.add_argument("--time", default="last", help="the output nearest to this time, last, or all (%(default)s)")
     parser.add_argument("--panels", type=int, default=12, help="at most so many outputs beside each other (%(default)s)")
-    parser.add_argument("--cut", help="in 3D, only what lies in a plane: z=0.5")
+    parser.add_argument("--cut", type=plane, help="in 3D, only what lies in a plane: z=0.5")
     parser.add_argument("--up", choices=("y", "z"), default="z", help="in 3D, the axis that points up (%(default)s)")
-    parser.add_argument("--range", help="of the colours: 0,1e5")
-    parser.add_argument("--colours", default="viridis", help="a colour map of matplotlib (%(default)s)")
+    parser.add_argument("--range", type=interval, help="of the colours: 0,1e5")
+    parser.add_argument("--colours", default="viridis", choices=sorted(matplotlib.colormaps), metavar="MAP", help="a colour map of matplotlib (%(default)s)")
     parser.add_argument("--statistics", metavar="COLUMNS", help="columns of statistics.csv over time, with commas")
     parser.add_argument("--probes", metavar="COLUMNS", help="columns of probes.csv over time, with commas")
     parser.add_argument("--convergence", metavar="COLUMN", help="last value of this column of statistics.csv over the spacing of "
@@ -193,6 +198,8 @@ def parse_arguments():
     parser.add_argument("--output", help="what to write: .png, .pdf, .svg; with --time all also .gif, .mp4 (plot.png)")
     parser.add_argument("--dpi", type=int, default=150, help="points per inch (%(default)s)")
     arguments = parser.parse_args()
+    if arguments.panels < 1:
+        parser.error("--panels must be positive.")
     arguments.output = pathlib.Path(arguments.output or "plot.png")
     if arguments.output.suffix in (".gif", ".mp4") and (arguments.time != "all" or len(arguments.directories) > 1):
         parser.error("an animation takes one directory and --time all.")
