@@ -1,6 +1,7 @@
 #include <talus/particles/shape.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/particles/particle.h>
 
 #include <algorithm>
 #include <limits>

@@ -168,22 +168,29 @@ namespace Talus
     return result;
   }
 
-  std::vector<double> CheckpointFile::numbers(const std::string &name, const std::uint64_t begin,
-                                              const std::uint64_t end) const
+  void CheckpointFile::read_numbers(const std::string &name, const std::uint64_t begin, const std::uint64_t end,
+                                    double *to) const
   {
     const Hid set(H5Dopen2(file->file, name.c_str(), H5P_DEFAULT), H5Dclose, "data set '" + name + "'");
     const Hid space(H5Dget_space(set), H5Sclose, "data set '" + name + "'");
     check(H5Sget_simple_extent_ndims(space) == 1 && begin <= end &&
             end <= static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space)),
           name);
-    std::vector<double> result(end - begin);
     if (begin == end)
-      return result;
+      return;
     const hsize_t offset = begin, count = end - begin;
     const Hid     memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "data set '" + name + "'");
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, &offset, nullptr, &count, nullptr) >= 0 &&
-            H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, result.data()) >= 0,
+            H5Dread(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, to) >= 0,
           name);
+  }
+
+  std::vector<double> CheckpointFile::numbers(const std::string &name, const std::uint64_t begin,
+                                              const std::uint64_t end) const
+  {
+    check(begin <= end && end <= size(name), name); // before memory is taken
+    std::vector<double> result(end - begin);
+    read_numbers(name, begin, end, result.data());
     return result;
   }
 
@@ -225,29 +232,27 @@ namespace Talus
       begin           = ends.at(rank);
       end             = ends.at(rank + 1);
     }
-    particles.resize(0);
     particles.resize(end - begin);
     std::vector<std::string>   read;
     std::vector<std::uint64_t> sums;
-    const auto                 part = [&](const std::string &name) {
-      const auto values = numbers("particles/" + name, begin, end);
-      Checksum   sum;
-      sum.add(values.data(), values.size(), begin);
+    const auto                 add_up = [&](const std::string &name, const double *values) {
+      Checksum sum;
+      sum.add(values, end - begin, begin);
       read.push_back("particles/" + name);
       sums.push_back(sum.value());
-      return values;
     };
-    const auto ids = part("id");
-    std::copy(ids.begin(), ids.end(), particles.id.begin());
+    const auto whole_numbers = [&](const std::string &name, auto &to) {
+      const auto values = numbers("particles/" + name, begin, end);
+      add_up(name, values.data());
+      std::copy(values.begin(), values.end(), to.begin());
+    };
+    whole_numbers("id", particles.id);
     if (particles.keeps_places && is_exact)
-    {
-      const auto places = part("place");
-      std::copy(places.begin(), places.end(), particles.place.begin());
-    }
+      whole_numbers("place", particles.place);
     for (const auto &[name, column] : column_names(particles))
     {
-      const auto values = part(name);
-      std::copy(values.begin(), values.end(), particles.column(column));
+      read_numbers("particles/" + name, begin, end, particles.column(column));
+      add_up(name, particles.column(column));
     }
     Utilities::MPI::sum(sums, communicator, sums);
     for (unsigned int k = 0; k < read.size(); ++k)

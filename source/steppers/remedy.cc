@@ -1,5 +1,8 @@
 #include <talus/steppers/remedy.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace Talus
 {
   using namespace dealii;
@@ -21,6 +24,53 @@ namespace Talus
       return std::strtod(chosen("Run", "Step size").c_str(), nullptr) > 0 ?
                "a smaller 'Step size', or 0 for steps by the Courant number" :
                "";
+    }
+
+    /** Marks of this rank's own nodes that conditions act on. */
+    template <int dim>
+    std::vector<bool> held_nodes(const Model<dim> &model)
+    {
+      std::vector<bool> is_held(model.grid.fields.n_owned(), false);
+      const auto        mark = [&](const std::vector<unsigned int> &nodes) {
+        for (const unsigned int i : nodes)
+          is_held[i] = true;
+      };
+      for (const auto &condition : model.boundary.conditions)
+      {
+        for (const auto &list : condition->owned_nodes())
+          mark(list);
+        for (const auto &part : condition->owned_parts())
+          mark(part.nodes);
+      }
+      return is_held;
+    }
+
+    /** The same for a mesh, by the node nearest to the particle. Collective. */
+    template <int dim>
+    std::string remedy_of_exit_from_mesh(const Model<dim> &model, const Point<dim> &x)
+    {
+      const std::vector<bool> is_held = held_nodes(model);
+      double                  nearest = std::numeric_limits<double>::max(), nearest_held = nearest;
+      for (unsigned int i = 0; i < is_held.size(); ++i)
+      {
+        const double distance = x.distance(model.grid.node_position(i));
+        nearest               = std::min(nearest, distance);
+        if (is_held[i])
+          nearest_held = std::min(nearest_held, distance);
+      }
+      if (Utilities::MPI::min(nearest_held, model.grid.communicator) >
+          Utilities::MPI::min(nearest, model.grid.communicator))
+        return "No condition acts on the nodes there: give the boundary one, or enlarge the mesh where material is to "
+               "fly on.";
+      if (chosen("Kernel", "Type") == "P1")
+      {
+        const std::string fixed = smaller_steps();
+        return "A condition acts on the nodes there, but not now, or the particle was too fast: " +
+               (fixed.empty() ? "lower the Courant number." : "take " + fixed + '.');
+      }
+      return "A condition acts on the nodes there, but other nodes move what lies between them and press it through a "
+             "wall at which the mesh ends. Name the wall in 'No-slip mirrors' or 'Slip mirrors' of section 'Grid' if "
+             "it lies across an axis, else in 'Held boundaries'.";
     }
   } // namespace
 
@@ -57,13 +107,9 @@ namespace Talus
 
     const auto box = dynamic_cast<const BoxGrid<dim> *>(&model.grid);
     if (box == nullptr)
-      return "Give the boundary there a condition, enlarge the mesh, or take smaller steps.";
-    const auto        of_face = box->nodes_on_boundary(face);
-    std::vector<bool> is_held(model.grid.fields.n_owned(), false);
-    for (const auto &condition : model.boundary.conditions)
-      for (const auto &list : condition->owned_nodes())
-        for (const unsigned int i : list)
-          is_held[i] = true;
+      return remedy_of_exit_from_mesh(model, Point<dim>(x));
+    const auto              of_face = box->nodes_on_boundary(face);
+    const std::vector<bool> is_held = held_nodes(model);
     // Edges of the face are those of others as well, and have their conditions.
     unsigned int n_held = 0;
     for (const unsigned int i : of_face)

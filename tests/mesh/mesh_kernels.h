@@ -27,10 +27,9 @@ namespace Test
   template <class Weight, int dim>
   MeshKernel<dim> c1_kernel(const std::string &name, const Mesh<dim> &mesh, const UmlsOptions options)
   {
-    return {name, [&mesh, options, feet = foot_coordinates(mesh)](const unsigned int c, const Coordinates<dim> &x,
-                                                                  Stencil<dim> &list) {
+    return {name, [&mesh, options](const unsigned int c, const Coordinates<dim> &x, Stencil<dim> &list) {
               const MeshPoint<dim> point{c, x};
-              c1_umls<Weight>(mesh, feet.data(), 1, &point, options, &list);
+              c1_umls<Weight>(mesh, 1, &point, options, &list);
             }};
   }
 

@@ -13,13 +13,11 @@ namespace
   template <int dim>
   struct Shares
   {
-    Shares(const Mesh<dim> &mesh, const FootCoordinates<dim> &feet, const unsigned int cell,
-           const Coordinates<dim> &x) :
-      nodes(mesh.nodes[cell]),
-      eta(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
+    Shares(const Mesh<dim> &mesh, const unsigned int cell, const Coordinates<dim> &x) :
+      nodes(mesh.nodes[cell]), eta(mesh.n_nodes(), 0.), gradient(mesh.n_nodes(), Coordinates<dim>{})
     {
-      const auto shares = c1_shares(feet, mesh.barycentric(cell, x.data()));
       const auto grad_B = mesh.gradients(cell);
+      const auto shares = c1_shares(feet_of<dim>(grad_B), mesh.barycentric(cell, x.data()));
       for (unsigned int i = 0; i <= dim; ++i)
       {
         eta[nodes[i]] = shares.eta[i];
@@ -36,11 +34,11 @@ namespace
   double ramp(const double t) { return t * t * (3 - 2 * t); }
 
   template <int dim>
-  void check_sums(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  void check_sums(const std::string &name, const Mesh<dim> &mesh)
   {
     double sum_error = 0, gradient_sum = 0, least = 0;
     for_points(mesh, 5, [&](const unsigned int c, const auto &x) {
-      const Shares<dim> at(mesh, feet[c], c, x);
+      const Shares<dim> at(mesh, c, x);
       double            sum = -1;
       Coordinates<dim>  total{};
       for (const unsigned int v : at.nodes)
@@ -61,7 +59,7 @@ namespace
 
   /** Inside: differences. Formulas hold beyond a cell's faces, so that both points may use the same cell. */
   template <int dim>
-  void check_differences(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  void check_differences(const std::string &name, const Mesh<dim> &mesh)
   {
     double       difference = 0;
     std::mt19937 random(9);
@@ -69,13 +67,13 @@ namespace
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
     {
       const auto        x = point(mesh, c, barycentric<dim>(random));
-      const Shares<dim> here(mesh, feet[c], c, x);
+      const Shares<dim> here(mesh, c, x);
       for (unsigned int d = 0; d < dim; ++d)
       {
         auto right = x, left = x;
         right[d] += e;
         left[d] -= e;
-        const Shares<dim> after(mesh, feet[c], c, right), before(mesh, feet[c], c, left);
+        const Shares<dim> after(mesh, c, right), before(mesh, c, left);
         for (const unsigned int v : here.nodes)
           raise(difference, mesh.longest_edge * ((after.eta[v] - before.eta[v]) / (2 * e) - here.gradient[v][d]));
       }
@@ -84,11 +82,11 @@ namespace
   }
 
   template <int dim>
-  void check_faces(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  void check_faces(const std::string &name, const Mesh<dim> &mesh)
   {
     double jump = 0, gradient_jump = 0;
     for_face_points(mesh, 5, [&](const unsigned int c, const unsigned int beyond, const auto &x) {
-      const Shares<dim> one(mesh, feet[c], c, x), other(mesh, feet[beyond], beyond, x);
+      const Shares<dim> one(mesh, c, x), other(mesh, beyond, x);
       for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
       {
         raise(jump, one.eta[v] - other.eta[v]);
@@ -107,14 +105,14 @@ namespace
 
   /** On the edge from corner j to i of a cell, and close to it: f, with its gradient along the edge. */
   template <int dim>
-  void look_at_edge(const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet, const unsigned int c,
-                    const unsigned int i, const unsigned int j, EdgeErrors &errors)
+  void look_at_edge(const Mesh<dim> &mesh, const unsigned int c, const unsigned int i, const unsigned int j,
+                    EdgeErrors &errors)
   {
     typename Mesh<dim>::Barycentric B{};
     B[i]                = .3;
     B[j]                = .7;
     const auto        x = point(mesh, c, B);
-    const Shares<dim> at(mesh, feet[c], c, x);
+    const Shares<dim> at(mesh, c, x);
     const auto       &from = mesh.position[mesh.nodes[c][j]], &to = mesh.position[mesh.nodes[c][i]];
     double            square = 0;
     for (unsigned int d = 0; d < dim; ++d)
@@ -125,21 +123,21 @@ namespace
             mesh.longest_edge * (at.gradient[mesh.nodes[c][i]][d] - 6 * .3 * .7 * (to[d] - from[d]) / square));
     for (unsigned int k = 0; k <= dim; ++k)
       B[k] += 1e-6 * (1. / (dim + 1) - B[k]);
-    const Shares<dim> close(mesh, feet[c], c, point(mesh, c, B));
+    const Shares<dim> close(mesh, c, point(mesh, c, B));
     for (unsigned int d = 0; d < dim; ++d)
       raise(errors.beside,
             mesh.longest_edge * (close.gradient[mesh.nodes[c][i]][d] - at.gradient[mesh.nodes[c][i]][d]));
   }
 
   template <int dim>
-  void check_edges(const std::string &name, const Mesh<dim> &mesh, const std::vector<FootCoordinates<dim>> &feet)
+  void check_edges(const std::string &name, const Mesh<dim> &mesh)
   {
     EdgeErrors errors;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       for (unsigned int i = 0; i <= dim; ++i)
         for (unsigned int j = 0; j <= dim; ++j)
           if (i != j)
-            look_at_edge(mesh, feet, c, i, j, errors);
+            look_at_edge(mesh, c, i, j, errors);
     check(name + ": on edges", errors.on, 1e-13);
     check(name + ": gradient on edges", errors.along, 1e-12);
     check(name + ": gradient 1e-6 beside edges", errors.beside, 1e-4);
@@ -151,11 +149,10 @@ void partition()
 {
   for (const auto &[name, mesh] : meshes<dim>())
   {
-    const auto feet = foot_coordinates(mesh);
-    check_sums(name, mesh, feet);
-    check_differences(name, mesh, feet);
-    check_faces(name, mesh, feet);
-    check_edges(name, mesh, feet);
+    check_sums(name, mesh);
+    check_differences(name, mesh);
+    check_faces(name, mesh);
+    check_edges(name, mesh);
   }
 }
 

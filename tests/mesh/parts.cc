@@ -32,10 +32,9 @@ namespace
   template <int dim>
   std::map<Coordinates<dim>, double> weights(const Mesh<dim> &mesh, const unsigned int cell, const Coordinates<dim> &x)
   {
-    const auto           feet = foot_coordinates(mesh);
     Stencil<dim>         list;
     const MeshPoint<dim> point{cell, x};
-    c1_umls<CubicWeight>(mesh, feet.data(), 1, &point, {}, &list);
+    c1_umls<CubicWeight>(mesh, 1, &point, {}, &list);
     std::map<Coordinates<dim>, double> weights;
     for (unsigned int k = 0; k < list.size; ++k)
       weights[mesh.position[list.place[k]]] = list.weight[k];

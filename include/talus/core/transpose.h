@@ -31,12 +31,10 @@ namespace Talus
     template <int d, typename Part, std::size_t... k>
     [[gnu::always_inline]] inline void exchange(Part &a, Part &b, std::index_sequence<k...>)
     {
-      constexpr int n = sizeof...(k);
-      using Integer   = typename Register<n>::Integer;
-      const Integer first{(k & d ? n + (k - d) : k)...}, second{(k & d ? n + k : k + d)...};
+      constexpr int n     = sizeof...(k);
       const Part    old_a = a;
-      a                   = __builtin_shuffle(old_a, b, first);
-      b                   = __builtin_shuffle(old_a, b, second);
+      a                   = __builtin_shufflevector(old_a, b, (k & d ? n + (k - d) : k)...);
+      b                   = __builtin_shufflevector(old_a, b, (k & d ? n + k : k + d)...);
     }
 
     /** Transposes the blocks of size `block` of n_rows registers, each of n lanes. */

@@ -68,6 +68,9 @@ namespace Talus
   private:
     struct Handle;
 
+    /** The same, into memory that is there. */
+    void read_numbers(const std::string &name, const std::uint64_t begin, const std::uint64_t end, double *to) const;
+
     std::vector<std::string> names(const std::string &group) const;
     std::uint64_t            size(const std::string &name) const;
 

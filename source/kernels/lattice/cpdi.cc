@@ -50,7 +50,7 @@ namespace Talus
     private:
       void list(const CornerHats<dim> &hats, const unsigned int l, Stencil<dim> &stencil) const
       {
-        constexpr double share = 1. / hats.n_corners;
+        constexpr double share = 1. / CornerHats<dim>::n_corners;
         stencil.reserve(hats.n_corners * hats.n_nodes);
         stencil.is_at_slip_wall.fill(false);
         for (unsigned int c = 0; c < hats.n_corners; ++c)

@@ -19,7 +19,6 @@ namespace Talus
       void attach(const Grid<dim> &grid) override
       {
         mesh = &simplex_grid(grid, this->get_section_name(), "Type").mesh();
-        prepare();
       }
 
       Reach reach() const override { return {}; }
@@ -44,9 +43,6 @@ namespace Talus
       }
 
     protected:
-      /** Makes what hangs on the mesh, which may still be empty. */
-      virtual void prepare() {}
-
       /** The lists of up to mesh_width points. */
       virtual void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const = 0;
 
@@ -118,17 +114,13 @@ namespace Talus
       double smallest_share() const override { return 1e-34; }
 
     private:
-      void prepare() override { feet = foot_coordinates(*this->mesh); }
-
       void find(const unsigned int n, const MeshPoint<dim> *points, Stencil<dim> *lists) const override
       {
         if (this->is_cubic)
-          c1_umls<CubicWeight>(*this->mesh, feet.data(), n, points, this->options, lists);
+          c1_umls<CubicWeight>(*this->mesh, n, points, this->options, lists);
         else
-          c1_umls<QuadraticWeight>(*this->mesh, feet.data(), n, points, this->options, lists);
+          c1_umls<QuadraticWeight>(*this->mesh, n, points, this->options, lists);
       }
-
-      std::vector<FootCoordinates<dim>> feet; // of each cell
     };
 
     const RegisterDimensions<Kernel, P1>     p1_kernel("P1", "linear functions on triangles or tetrahedra");

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <talus/core/simd.h>
-#include <talus/grid/mesh.h>
 
 #include <array>
-#include <vector>
 
 namespace Talus
 {
@@ -14,7 +12,7 @@ namespace Talus
    * @f$ \lambda_j^a = -\nabla B_j\cdot\nabla B_a/|\nabla B_a|^2 @f$; likewise for the edges of the faces of a
    * tetrahedron.
    */
-  template <int dim, class Number = double>
+  template <int dim, class Number>
   struct Feet;
 
   template <class Number>
@@ -36,12 +34,72 @@ namespace Talus
     Number face_lambda[4][3][3]; // [a][b][j], of the edge opposite to vertex b of face a
   };
 
-  template <int dim>
-  using FootCoordinates = Feet<dim>;
+  namespace internal
+  {
+    /** G_jk = grad B_j . grad B_k, of n vertices. */
+    template <int n, class Number>
+    using Gram = std::array<std::array<Number, n>, n>;
 
-  /** Those of all cells of a mesh. */
-  template <int dim>
-  std::vector<FootCoordinates<dim>> foot_coordinates(const Mesh<dim> &mesh);
+    template <class Number>
+    [[gnu::always_inline]] inline void set_feet(const Gram<2, Number> &, Feet<1, Number> &)
+    {
+    }
+
+    template <class Number>
+    [[gnu::always_inline]] inline void set_lambda(const Gram<3, Number> &G, Number (&lambda)[3][3])
+    {
+      for (int a = 0; a < 3; ++a)
+      {
+        const Number scale = -1. / G[a][a];
+        for (int j = 0; j < 3; ++j)
+          lambda[a][j] = scale * G[j][a];
+      }
+    }
+
+    template <class Number>
+    [[gnu::always_inline]] inline void set_feet(const Gram<3, Number> &G, Feet<2, Number> &feet)
+    {
+      set_lambda(G, feet.lambda);
+    }
+
+    template <class Number>
+    [[gnu::always_inline]] inline void set_feet(const Gram<4, Number> &G, Feet<3, Number> &feet)
+    {
+      for (int a = 0; a < 4; ++a)
+      {
+        const auto      outer = [a](const int j) { return (a + 1 + j) % 4; };
+        const Number    scale = -1. / G[a][a];
+        Gram<3, Number> in_face; // there the gradients have no part along its normal grad B_a
+        for (int j = 0; j < 3; ++j)
+          feet.lambda[a][j] = scale * G[outer(j)][a];
+        for (int j = 0; j < 3; ++j)
+          for (int k = 0; k <= j; ++k)
+            in_face[j][k] = in_face[k][j] = G[outer(j)][outer(k)] + feet.lambda[a][j] * G[a][outer(k)];
+        set_lambda(in_face, feet.face_lambda[a]);
+      }
+    }
+  } // namespace internal
+
+  /**
+   * Those of a cell with these gradients of B. They are found for each point: reading them from memory takes as long,
+   * and there are 48 of a tetrahedron.
+   */
+  template <int dim, class Number>
+  [[gnu::always_inline]] inline Feet<dim, Number> feet_of(const std::array<std::array<Number, dim>, dim + 1> &grad_B)
+  {
+    internal::Gram<dim + 1, Number> G;
+    for (int j = 0; j <= dim; ++j)
+      for (int k = 0; k <= j; ++k)
+      {
+        Number sum = 0.;
+        for (int d = 0; d < dim; ++d)
+          sum += grad_B[j][d] * grad_B[k][d];
+        G[j][k] = G[k][j] = sum;
+      }
+    Feet<dim, Number> feet;
+    internal::set_feet(G, feet);
+    return feet;
+  }
 
   /** Shares of a simplex's n vertices that add up to 1, and slope[i][c] = d eta_i/d B_c, all B_c taken as independent.
    */

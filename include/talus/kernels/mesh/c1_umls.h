@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/transpose.h>
 #include <talus/kernels/mesh/c1_partition.h>
 #include <talus/kernels/mesh/umls.h>
 
@@ -17,27 +18,27 @@ namespace Talus
    * @f[ \nabla\phi_v = g_v + (a\cdot p_v)\nabla w_v - w_v Q^T p_v , \quad
    *     Q = M^{-1} \sum_u (a\cdot p_u)\,p_u \nabla w_u^T . @f]
    * As these are true gradients, the integral of grad phi_v is its boundary term, and refinement converges on meshes
-   * that are not uniform. At up to mesh_width points; `feet` of all cells. Theory: doc/umls.md. Test:
-   * tests/mesh/kernels.cc.
+   * that are not uniform. At up to mesh_width points. Theory: doc/umls.md. Test: tests/mesh/kernels.cc.
    */
   template <class Weight, int dim>
-  void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
-               const MeshPoint<dim> *points, const UmlsOptions &options, Stencil<dim> *lists);
+  void c1_umls(const Mesh<dim> &mesh, const unsigned int n, const MeshPoint<dim> *points, const UmlsOptions &options,
+               Stencil<dim> *lists);
 
   namespace internal
   {
     /** What the weights of mesh_width particles share: gamma and its gradient by the sets of vertices, 1/s, grad s. */
     template <int dim>
-    struct C1Points
+    class C1Points
     {
+    public:
       using Lanes = Simd<mesh_width>;
 
-      [[gnu::always_inline]] C1Points(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
-                                      const MeshPoint<dim> *points, const UmlsOptions &options)
+      [[gnu::always_inline]] C1Points(const Mesh<dim> &mesh, const unsigned int n, const MeshPoint<dim> *points,
+                                      const UmlsOptions &options)
       {
-        Feet<dim, Lanes>           feet_of;
-        std::array<Lanes, dim + 1> B, eta, size, grad_B[dim];
-        Lanes                      is_held = 0.;
+        std::array<Lanes, dim + 1>                  B, eta, size;
+        std::array<std::array<Lanes, dim>, dim + 1> grad_B, grad_eta;
+        Lanes                                       is_held = 0.;
         for (unsigned int l = 0; l < mesh_width; ++l)
         {
           const auto        &point    = points[l < n ? l : 0];
@@ -49,21 +50,43 @@ namespace Talus
             B[u].set(l, share[u]);
             size[u].set(l, mesh.size[mesh.nodes[cell][u]]);
             for (unsigned int d = 0; d < dim; ++d)
-              grad_B[d][u].set(l, gradient[u][d]);
-          }
-          if constexpr (dim > 1)
-          {
-            const auto from = reinterpret_cast<const double *>(feet + cell);
-            const auto to   = reinterpret_cast<Lanes *>(&feet_of);
-            for (unsigned int i = 0; i < sizeof(feet[cell]) / sizeof(double); ++i)
-              to[i].set(l, from[i]);
+              grad_B[u][d].set(l, gradient[u][d]);
           }
           is_held.set(l, mesh.has_held(cell) ? 1. : 0.);
         }
-        const auto shares = c1_shares(feet_of, B);
+        const auto shares = c1_shares(feet_of<dim>(grad_B), B);
         for (unsigned int u = 0; u <= dim; ++u)
+        {
           eta[u] = select(is_held > 0., max(shares.eta[u], Lanes(mesh.least_share)), shares.eta[u]);
-        gamma.set(gamma_of_sets<dim, Lanes>(eta, options));
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            grad_eta[u][d] = 0.;
+            for (unsigned int c = 0; c <= dim; ++c)
+              grad_eta[u][d] += shares.slope[u][c] * grad_B[c][d];
+          }
+        }
+        set_sizes(mesh, size, eta, grad_eta, options);
+        set_gamma(eta, grad_eta, options);
+      }
+
+      /** Those of particle l for the nodes of a register: gamma, and the components of its gradient. */
+      [[gnu::always_inline]] void gamma(const unsigned char *touches, const unsigned int l, Lanes (&rows)[4]) const
+      {
+        Simd<4> of_node[mesh_width];
+        for (unsigned int k = 0; k < mesh_width; ++k)
+          of_node[k] = Simd<4>::load(of_set[l][touches[k]]);
+        vectors_to_lanes<mesh_width, 4>(of_node, rows);
+      }
+
+      alignas(64) double inverse_s[mesh_width], grad_s[dim][mesh_width];
+
+    private:
+      using Shares    = std::array<Lanes, dim + 1>;
+      using Gradients = std::array<std::array<Lanes, dim>, dim + 1>;
+
+      [[gnu::always_inline]] void set_sizes(const Mesh<dim> &mesh, const Shares &size, const Shares &eta,
+                                            const Gradients &grad_eta, const UmlsOptions &options)
+      {
         const bool is_local = options.support == UmlsOptions::Support::local;
         Lanes      s        = is_local ? 0. : mesh.longest_edge;
         for (unsigned int u = 0; is_local && u <= dim; ++u)
@@ -71,26 +94,40 @@ namespace Talus
         (1. / s).store(inverse_s);
         for (unsigned int d = 0; d < dim; ++d)
         {
-          std::array<Lanes, dim + 1> grad_eta;
-          Lanes                      grad = 0.;
-          for (unsigned int u = 0; u <= dim; ++u)
-          {
-            grad_eta[u] = 0.;
-            for (unsigned int c = 0; c <= dim; ++c)
-              grad_eta[u] += shares.slope[u][c] * grad_B[d][c];
-            grad += grad_eta[u] * size[u];
-          }
-          (is_local ? grad : Lanes(0.)).store(grad_s[d]);
-          auto sums   = subset_sums<dim, Lanes>(grad_eta);
-          sums.back() = 0.;
-          if (!options.has_gamma)
-            sums.fill(0.);
-          grad_gamma[d].set(sums);
+          Lanes grad = 0.;
+          for (unsigned int u = 0; is_local && u <= dim; ++u)
+            grad += grad_eta[u][d] * size[u];
+          grad.store(grad_s[d]);
         }
       }
 
-      SetTable<dim> gamma, grad_gamma[dim];
-      alignas(64) double inverse_s[mesh_width], grad_s[dim][mesh_width];
+      [[gnu::always_inline]] void set_gamma(const Shares &eta, const Gradients &grad_eta, const UmlsOptions &options)
+      {
+        std::array<Lanes, 2 << dim> rows[1 + dim];
+        rows[0] = gamma_of_sets<dim, Lanes>(eta, options);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          Shares component;
+          for (unsigned int u = 0; u <= dim; ++u)
+            component[u] = grad_eta[u][d];
+          rows[1 + d]        = subset_sums<dim, Lanes>(component);
+          rows[1 + d].back() = 0.;
+          if (!options.has_gamma)
+            rows[1 + d].fill(0.);
+        }
+        for (unsigned int set = 0; set < 2 << dim; set += 2)
+        {
+          Lanes   of_two[8];
+          Simd<8> of_particle[mesh_width];
+          for (unsigned int i = 0; i < 8; ++i)
+            of_two[i] = i % 4 <= dim ? rows[i % 4][set + i / 4] : Lanes(0.);
+          lanes_to_vectors<mesh_width>(of_two, of_particle);
+          for (unsigned int l = 0; l < mesh_width; ++l)
+            of_particle[l].store(of_set[l][set]);
+        }
+      }
+
+      alignas(64) double of_set[mesh_width][2 << dim][4]; // side by side, so that a node reads them at once
     };
 
     template <int dim, class Lanes>
@@ -165,11 +202,11 @@ namespace Talus
   } // namespace internal
 
   template <class Weight, int dim>
-  [[gnu::flatten]] void c1_umls(const Mesh<dim> &mesh, const FootCoordinates<dim> *feet, const unsigned int n,
-                                const MeshPoint<dim> *points, const UmlsOptions &options, Stencil<dim> *lists)
+  [[gnu::flatten]] void c1_umls(const Mesh<dim> &mesh, const unsigned int n, const MeshPoint<dim> *points,
+                                const UmlsOptions &options, Stencil<dim> *lists)
   {
     using Lanes = Simd<mesh_width>;
-    const internal::C1Points<dim>            at(mesh, feet, n, points, options);
+    const internal::C1Points<dim>            at(mesh, n, points, options);
     SumsOfParticles<MomentSums<dim>::n_sums> moments;
     typename Stencil<dim>::Arrays            to[mesh_width];
     // Until the last loop the lists hold w and grad w.
@@ -177,22 +214,23 @@ namespace Talus
     {
       const Lanes     scale = at.inverse_s[l];
       MomentSums<dim> M;
-      to[l] = list_ring(
-        mesh, points[l].cell, points[l].x.data(), lists[l],
-        [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
-          Lanes d[dim], square = 0.;
-          for (unsigned int e = 0; e < dim; ++e)
-          {
-            d[e] = scale * offset[e];
-            square += d[e] * d[e];
-          }
-          const Lanes q = sqrt(square), b = Weight::value(q), gamma = at.gamma(touches, l);
-          const Lanes weight = b * gamma, slope = scale * gamma * Weight::slope_over_q(q);
-          weight.store(list.weight + k);
-          for (unsigned int e = 0; e < dim; ++e)
-            (b * at.grad_gamma[e](touches, l) - slope * (d[e] + square * at.grad_s[e][l])).store(list.gradient[e] + k);
-          M.add(weight, d);
-        });
+      to[l] = list_ring(mesh, points[l].cell, points[l].x.data(), lists[l],
+                        [&](const auto &list, const unsigned int k, const auto &offset, const unsigned char *touches) {
+                          Lanes d[dim], square = 0.;
+                          for (unsigned int e = 0; e < dim; ++e)
+                          {
+                            d[e] = scale * offset[e];
+                            square += d[e] * d[e];
+                          }
+                          Lanes gamma[4];
+                          at.gamma(touches, l, gamma);
+                          const Lanes q = sqrt(square), b = Weight::value(q);
+                          const Lanes weight = b * gamma[0], slope = scale * gamma[0] * Weight::slope_over_q(q);
+                          weight.store(list.weight + k);
+                          for (unsigned int e = 0; e < dim; ++e)
+                            (b * gamma[1 + e] - slope * (d[e] + square * at.grad_s[e][l])).store(list.gradient[e] + k);
+                          M.add(weight, d);
+                        });
       moments.set(l, M.rows);
     }
     moments.fill(n);
