@@ -166,7 +166,7 @@ namespace Talus
                      " iterations. Make the cells more cubic, or lower Poisson's ratio.");
     }
     constraints.distribute(result);
-    solution = std::move(result);
+    solution = result;
     solution.update_ghost_values();
   }
 

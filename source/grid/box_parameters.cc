@@ -124,7 +124,7 @@ namespace Talus
     }
     common &= -common; // the largest power of two that divides all counts: p4est refines so often
     for (const int count : lattice.n_cells)
-      n_coarse *= count / common;
+      n_coarse *= static_cast<double>(count) / common;
     // Every rank stores the coarse mesh, besides its own cells.
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     this->remarks.clear();

@@ -9,7 +9,8 @@ namespace Talus
     /** Coordinates of the n + 1 nodes along an axis; of the intervals every second is `ratio` times as long. */
     std::vector<double> nodes_along(const double from, const double to, const unsigned int n, const double ratio)
     {
-      const double        n_units = (n + 1) / 2 * ratio + n / 2;
+      const unsigned int  n_short = n / 2, n_long = n - n_short;
+      const double        n_units = n_long * ratio + n_short;
       std::vector<double> x(1, from);
       double              units = 0;
       for (unsigned int i = 1; i <= n; ++i)
