@@ -31,7 +31,7 @@ endforeach()
 
 # The lattice of a box grid is known to the grid, in folders named after it, where a kernel says its form and where loops
 # are chosen by it, and to shapes that seed by spacing.
-set(knows_lattice "/(grid|lattice)/|kernels/kernel.h|transfer/loops.h|particles/(shape.h|(lattice_|polar_|surface_)?shapes?\\.|lattice_shape|edge_volumes|amount)")
+set(knows_lattice "/(grid|lattice)/|kernels/kernel.h|transfer/loops.h|particles/(shape.h|[a-z_]*regions?\\.|(lattice_|polar_|surface_)?shapes?\\.|lattice_shape|edge_volumes|amount)")
 foreach(file ${files})
   if(NOT file MATCHES "${knows_lattice}")
     file(STRINGS ${ROOT}/${file} lines REGEX "[Ll]attice")

@@ -219,7 +219,7 @@ foreach(case grid_lines point_files box_edge overlap moving_wall formulas no_flo
       $<TARGET_FILE:talus> ${work}/inputs/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()
 endforeach()
-foreach(case headers commas sizes mesh_files clipping idle energy_watch)
+foreach(case headers tables where commas sizes mesh_files clipping idle energy_watch)
   foreach(ranks 1 2)
     talus_add_run(inputs.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/inputs/checks.py
       $<TARGET_FILE:talus> ${work}/inputs/${case}.${ranks} ${case} ${ranks} ${MPIRUN})

@@ -2,6 +2,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/half_space.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,6 +27,9 @@ namespace Talus
                   Patterns::List(Patterns::Double(), 0, dim));
     add_parameter("Upper corner", upper, "With 'Lower corner': all nodes in this box [length].", prm,
                   Patterns::List(Patterns::Double(), 0, dim));
+    add_parameter("Where", where_text,
+                  "A formula of x, y, z: of these nodes, or of all where nothing else is given, the condition acts on "
+                  "those where it is not 0, 'x > 1 && y < 0.5 * x' [length]; empty: on all of these.");
     add_parameter("Start time", start_time,
                   "The condition acts in steps that end after this time [time]; empty: from the start of the run.", prm,
                   Patterns::List(Patterns::Double(), 0, 1));
@@ -48,9 +52,12 @@ namespace Talus
     positions.clear();
     for (const std::string &half_space : half_spaces)
       read_half_space(half_space);
-    if (faces.empty() && lower.empty() && boundaries.empty())
-      throw EntryError(get_section_name(), "Boundary ids",
-                       "the condition acts nowhere. Give boundary ids, half spaces or the corners of a box of nodes.");
+    where.initialize(where_text, get_section_name(), "Where");
+    if (faces.empty() && lower.empty() && boundaries.empty() && !where.is_given())
+      throw EntryError(
+        get_section_name(), "Boundary ids",
+        "the condition acts nowhere. Give boundary ids, half spaces, the corners of a box of nodes, or a "
+        "formula 'Where'.");
     if (!start_time.empty() && !end_time.empty() && !(end_time[0] > start_time[0]))
       throw EntryError(get_section_name(), "End time",
                        "the condition never acts. Give a time after the start time, or nothing for no end.");
@@ -122,7 +129,44 @@ namespace Talus
                          "no node of the grid lies in this box. Make it at least a spacing wide, "
                          "or move it so that it holds the nodes meant.");
     }
+    if (where.is_given())
+      keep_where(grid);
     select(grid);
+  }
+
+  template <int dim>
+  void Condition<dim>::keep_where(const Grid<dim> &grid)
+  {
+    if (faces.empty() && lower.empty() && boundaries.empty())
+    {
+      Point<dim> a = grid.lower, b = grid.upper;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        a[d] -= grid.spacing[d];
+        b[d] += grid.spacing[d];
+      }
+      all_nodes.push_back(grid.nodes_in_box(a, b));
+    }
+    std::size_t n = 0;
+    for (auto &list : all_nodes)
+    {
+      list.erase(std::remove_if(list.begin(), list.end(),
+                                [&](const unsigned int i) { return !where.holds(grid.node_position(i)); }),
+                 list.end());
+      n += list.size();
+    }
+    for (auto &part : all_parts)
+    {
+      BoundaryPart<dim> kept;
+      kept.mirrored_faces = part.mirrored_faces;
+      for (unsigned int k = 0; k < part.nodes.size(); ++k)
+        if (where.holds(grid.node_position(part.nodes[k])))
+          kept.add(part.nodes[k], part.normals[k]);
+      n += kept.nodes.size();
+      part = std::move(kept);
+    }
+    if (Utilities::MPI::sum(n, grid.communicator) == 0)
+      throw EntryError(get_section_name(), "Where", "the formula holds at no node that the condition acts on.");
   }
 
   template <int dim>

@@ -143,6 +143,50 @@ namespace Talus
     return v;
   }
 
+  template <int dim>
+  double ParsedVector<dim>::component(const Point<dim> &x, const double time, const unsigned int c) const
+  {
+    if (constant)
+      return (*constant)[c];
+    parser->set_time(time);
+    return parser->value(x, c);
+  }
+
+  template <int dim>
+  void ParsedCondition<dim>::initialize(const std::string &expression, const std::string &section,
+                                        const std::string &entry)
+  {
+    given            = !Utilities::trim(expression).empty();
+    this->expression = expression;
+    this->section    = section;
+    this->entry      = entry;
+    if (!given)
+      return;
+    if (expression.find(';') != std::string::npos)
+      throw EntryError(section, entry, "it is one condition: join several with && (and) or || (or).");
+    if (uses_variable(expression, "t"))
+      throw EntryError(section, entry, "it is asked once, before the first step: leave out t.");
+    std::string of_components = expression;
+    for (unsigned int d = 1; d < dim; ++d)
+      of_components += ';' + expression;
+    formula.initialize(of_components, section, entry);
+  }
+
+  template <int dim>
+  bool ParsedCondition<dim>::holds(const Point<dim> &x) const
+  {
+    if (!given)
+      return true;
+    const double value = formula.component(x, 0., 0);
+    if (!std::isfinite(value))
+      throw EntryError(section, entry,
+                       "the formula '" + shortened(expression) + "' has no finite value at " + to_text<dim>(x) +
+                         ". Correct it, so that it is defined everywhere.");
+    return value != 0;
+  }
+
+  template class ParsedCondition<2>;
+  template class ParsedCondition<3>;
   template class ParsedVector<2>;
   template class ParsedVector<3>;
 } // namespace Talus

@@ -63,6 +63,8 @@ namespace Talus
     AssertThrow(!faces.empty(), InputError("the surface in '" + name + "' is empty: it has no part with an extent. " +
                                            "Check the file, and the scale."));
     check_closed(name);
+    if constexpr (dim == 2)
+      check_crossings(name);
 
     std::vector<BoundingBox<dim - 1>> boxes(faces.size());
     for (unsigned int f = 0; f < faces.size(); ++f)
@@ -230,6 +232,42 @@ namespace Talus
         is_inside = !is_inside;
     });
     return is_inside;
+  }
+
+  template <int dim>
+  bool ClosedSurface<dim>::may_meet(const Point &lower, const Point &upper) const
+  {
+    std::array<double, dim - 1> from, to;
+    for (unsigned int d = 1; d < dim; ++d)
+    {
+      from[d - 1] = lower[d];
+      to[d - 1]   = upper[d];
+    }
+    bool meets = false;
+    columns->for_near(from, to, [&](const unsigned int f) {
+      if (meets)
+        return;
+      // Apart along an axis, or all corners of the box on one side of the part's plane?
+      const Tensor<1, dim> normal = area(faces[f]);
+      double               least = 0, most = 0; // of normal . (corner - vertex)
+      bool                 is_apart = false;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        double a = vertices[faces[f][0]][d], b = a;
+        for (const unsigned int v : faces[f])
+        {
+          a = std::min(a, vertices[v][d]);
+          b = std::max(b, vertices[v][d]);
+        }
+        is_apart         = is_apart || b < lower[d] || a > upper[d];
+        const double one = normal[d] * (lower[d] - vertices[faces[f][0]][d]),
+                     two = normal[d] * (upper[d] - vertices[faces[f][0]][d]);
+        least += std::min(one, two);
+        most += std::max(one, two);
+      }
+      meets = !is_apart && least <= 0 && most >= 0;
+    });
+    return meets;
   }
 
   template <int dim>

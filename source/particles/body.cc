@@ -1,4 +1,7 @@
 #include <talus/particles/body.h>
+#include <talus/particles/column_names.h>
+
+#include <algorithm>
 
 namespace Talus
 {
@@ -71,10 +74,10 @@ namespace Talus
     if (!velocity_gradient.empty() && velocity_gradient.size() != dim * dim)
       throw EntryError(get_section_name(), "Velocity gradient",
                        "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
-    if (starts_deformed() && deformation_gradient.size() != dim * dim)
+    if (!deformation_gradient.empty() && deformation_gradient.size() != dim * dim)
       throw EntryError(get_section_name(), "Deformation gradient",
                        "give " + std::to_string(dim * dim) + " numbers, row by row, or none.");
-    if (starts_deformed() && !(determinant(initial_F()) > 0))
+    if (!deformation_gradient.empty() && !(determinant(initial_F()) > 0))
       throw EntryError(get_section_name(), "Deformation gradient", "its determinant must be positive.");
     if (dim == 2 && stress_kind == "uniform" && (uniform_stress[4] != 0 || uniform_stress[5] != 0))
       throw EntryError(get_section_name(), "Stress", "plane strain has no shear stresses xz, yz. Set them to 0.");
@@ -83,8 +86,9 @@ namespace Talus
   }
 
   template <int dim>
-  void Body<dim>::initialize(const Point<dim> &x, const double volume, const Material &material,
-                             const WorkingSet<dim> &set, std::vector<double> &properties) const
+  void Body<dim>::initialize(const std::uint64_t index, const Point<dim> &x, const double volume,
+                             const Material &material, const WorkingSet<dim> &set,
+                             std::vector<double> &properties) const
   {
     for (const auto &field : set.fields)
       std::copy(field.initial.begin(), field.initial.end(), properties.begin() + field.first);
@@ -111,7 +115,7 @@ namespace Talus
     for (unsigned int c = 0; c < set.n_stress; ++c)
       value(set.stress, c) = stress[c];
     double J = 1;
-    if (starts_deformed())
+    if (!deformation_gradient.empty())
     {
       if (!material.starts_deformed())
         throw EntryError(
@@ -126,6 +130,8 @@ namespace Talus
       value(set.state_fields[this->material][k], 0) = states[k];
     value(set.volume, 0) = volume;
     value(set.mass, 0)   = volume / J * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
+    if (!given.empty())
+      take_given(index, x, volume, material, set, properties);
     if (const auto field = set.find_field(set.half_edges_name))
     {
       const auto edges = shape->half_edges(x, volume);
@@ -134,6 +140,92 @@ namespace Talus
     }
     if (material.carries_volume_only())
       value(set.F, 0) = material.density * volume / value(set.mass, 0);
+  }
+
+  template <int dim>
+  void Body<dim>::find_given_columns(const WorkingSet<dim> &set)
+  {
+    given.clear();
+    const auto names = column_names(set);
+    for (const std::string &wanted : shape->given_columns())
+    {
+      const auto found =
+        std::find_if(names.begin(), names.end(), [&](const auto &name) { return name.first == wanted; });
+      if (found == names.end())
+      {
+        std::string choices;
+        for (const auto &name : names)
+          choices += (choices.empty() ? "" : ", ") + name.first;
+        throw EntryError(get_section_name(), "File",
+                         "particles of this run have no '" + shortened(wanted) + "'. They have " + choices +
+                           ". What is not to be read goes into 'Ignore columns'.");
+      }
+      given.push_back(found->second);
+    }
+    const auto gives = [&](const unsigned int field) {
+      const unsigned int n     = set.fields[field].n_components;
+      unsigned int       there = 0;
+      for (const unsigned int c : given)
+        there += c >= set.fields[field].first && c < set.fields[field].first + n;
+      if (there > 0 && there < n)
+        throw EntryError(get_section_name(), "File",
+                         "of " + set.fields[field].name + " the table has " + std::to_string(there) + " of " +
+                           std::to_string(n) + " components. Give all, or none.");
+      return there > 0;
+    };
+    for (unsigned int field = 0; field < set.fields.size(); ++field)
+      gives(field);
+    gives_F      = gives(set.F);
+    gives_stress = gives(set.stress);
+    gives_mass   = gives(set.mass);
+    if (gives_stress && has_initial_stress())
+      throw EntryError(get_section_name(), "Initial stress",
+                       "the table gives the stress. Leave this out, or name its columns in 'Ignore columns'.");
+    if (gives_F && !deformation_gradient.empty())
+      throw EntryError(get_section_name(), "Deformation gradient",
+                       "the table gives it. Leave this out, or name its columns in 'Ignore columns'.");
+  }
+
+  template <int dim>
+  void Body<dim>::take_given(const std::uint64_t index, const Point<dim> &x, const double volume,
+                             const Material &material, const WorkingSet<dim> &set,
+                             std::vector<double> &properties) const
+  {
+    const double *values = shape->given_values(index);
+    const auto    refuse = [&](const std::string &why) {
+      throw EntryError(get_section_name(), "File", "the point at " + to_text<dim>(x) + ": " + why);
+    };
+    for (unsigned int k = 0; k < given.size(); ++k)
+      properties[given[k]] = values[k];
+    std::array<double, 6> stress{};
+    for (unsigned int c = 0; c < set.n_stress; ++c)
+      stress[c] = properties[set.fields[set.stress].first + c];
+    if (gives_stress)
+    {
+      if (const std::string refusal = material.refusal(stress); !refusal.empty() && !gives_F)
+        refuse(refusal);
+      const auto states = material.initial_states(stress);
+      for (unsigned int k = 0; k < states.size(); ++k)
+        properties[set.fields[set.state_fields[this->material][k]].first] = states[k];
+      // What the table says of them counts.
+      for (unsigned int k = 0; k < given.size(); ++k)
+        properties[given[k]] = values[k];
+    }
+    double J = 1;
+    if (gives_F && !material.carries_volume_only())
+    {
+      Tensor<2, dim> F;
+      for (unsigned int c = 0; c < dim * dim; ++c)
+        F[c / dim][c % dim] = properties[set.fields[set.F].first + c];
+      J = determinant(F);
+      if (!(J > 0))
+        refuse("the determinant of its deformation gradient must be positive.");
+    }
+    double &mass = properties[set.fields[set.mass].first];
+    if (!gives_mass)
+      mass = volume / J * material.initial_density(-(stress[0] + stress[1] + stress[2]) / 3);
+    if (!(mass > 0))
+      refuse("its mass must be positive.");
   }
 
   template <int dim>

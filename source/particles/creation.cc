@@ -81,13 +81,14 @@ namespace Talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       Body<dim> &body = *bodies[b];
+      body.find_given_columns(*this);
       body_begin.push_back(body.first_id);
       body_material.push_back(body.material);
       for (const auto &cell : grid.triangulation.active_cell_iterators())
         if (cell->is_locally_owned())
           visit_cell(grid, body, cell, [&](const std::uint64_t i, const Point<dim> &x, const double volume) {
             const Point<dim> location = grid.inside_cell(x);
-            body.initialize(x, volume, *materials[body.material], *this, properties);
+            body.initialize(i, x, volume, *materials[body.material], *this, properties);
             handler->insert_particle(location, grid.unit_point(cell, location), body.first_id + i, cell,
                                      make_array_view(properties));
             largest_mass = std::max(largest_mass, volume * materials[body.material]->density);

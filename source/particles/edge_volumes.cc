@@ -8,16 +8,15 @@ namespace Talus
   template <int dim>
   double LatticeShape<dim>::share_of_shape(const Index &k) const
   {
-    // A convex shape that has the corners of this box and its neighbours has all of them.
-    bool is_inner = true;
-    for (unsigned int corner = 0; corner < 1u << dim && is_inner; ++corner)
-    {
-      Point<dim> x = position(k);
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] += is_curved(d) ? (corner >> d & 1 ? 1.5 : -1.5) * spacing[d] : 0;
-      is_inner = contains(x);
-    }
-    if (is_inner)
+    Point<dim> lower = position(k), upper = lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (is_curved(d))
+      {
+        lower[d] -= 1.5 * spacing[d];
+        upper[d] += 1.5 * spacing[d];
+      }
+    const auto is_wanted = [&](const Point<dim> &x) { return contains(x); };
+    if (region->holds(lower, upper) && (!this->where.is_given() || holds_on_lattice<dim>(lower, upper, 4, is_wanted)))
       return 1;
     std::uint64_t index = 0;
     for (int d = dim - 1; d >= 0; --d)

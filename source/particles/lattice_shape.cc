@@ -30,7 +30,8 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  LatticeShape<dim>::LatticeShape(const std::string &section) : Shape<dim>(section)
+  LatticeShape<dim>::LatticeShape(std::unique_ptr<Region<dim>> filled) :
+    Shape<dim>(filled->get_section_name()), region(std::move(filled))
   {
     this->add_parameter("Particles per cell and direction", points_per_cell,
                         "A cell receives this number to the power of the dimension.", this->prm,
@@ -44,27 +45,17 @@ namespace Talus
       "Greatest random shift of a particle along each axis in units of half the particle distance [1].", this->prm,
       Patterns::Double(0, 1));
     this->add_parameter("Seed", seed, "Seed of the jitter.", this->prm, Patterns::Integer(0));
-  }
-
-  template <int dim>
-  void LatticeShape<dim>::add_edge_volumes()
-  {
-    edge_volumes = "sampled";
     this->add_parameter("Edge volumes", edge_volumes,
-                        "Volumes of particles at a curved surface: 'sampled', that of the shape around them; 'whole', "
-                        "that of their box in the lattice.",
+                        "Volumes of particles at a surface that the lattice does not fit: 'sampled', that of the shape "
+                        "around them; 'whole', that of their box in the lattice.",
                         this->prm, Patterns::Selection("sampled|whole"));
-  }
-
-  template <int dim>
-  void LatticeShape<dim>::parse_parameters(ParameterHandler &)
-  {
   }
 
   template <int dim>
   void LatticeShape<dim>::create(const std::array<double, dim> &h)
   {
-    const auto corners = this->bounding_box().get_boundary_points();
+    region->prepare();
+    const auto corners = bounding_box().get_boundary_points();
     double     n       = 1;
     for (unsigned int d = 0; d < dim; ++d)
     {
@@ -167,7 +158,10 @@ namespace Talus
     double volume = 1;
     for (unsigned int d = 0; d < dim; ++d)
       volume *= spacing[d];
-    const bool are_whole = edge_volumes == "whole";
+    bool are_whole = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      are_whole = are_whole && !is_curved(d);
+    are_whole = are_whole || edge_volumes == "whole";
 
     for (auto k = begin; k[dim - 1] < end[dim - 1];)
     {

@@ -140,7 +140,30 @@ namespace Talus
                               ". Complete or remove the line.")));
   }
 
-  void PointTable::read(const std::vector<std::string> &lines, const std::string &file_name)
+  std::vector<std::string> PointTable::header(const std::vector<std::string> &lines)
+  {
+    for (const std::string &whole : lines)
+    {
+      const std::string line = trim(whole.substr(0, whole.find('#')));
+      if (line.empty())
+        continue;
+      std::vector<std::string> names;
+      // Units may have blanks.
+      for (const auto &word : split(std::regex_replace(line, std::regex("\\[[^\\]]*\\]"), "")))
+      {
+        double      number = 0;
+        std::string name   = plain_name(trim(word));
+        if (read_number(name, number))
+          return {};
+        std::replace(name.begin(), name.end(), ' ', '_');
+        names.push_back(name);
+      }
+      return names;
+    }
+    return {};
+  }
+
+  void PointTable::read(const std::vector<std::string> &lines, const std::string &file_name, const bool has_header)
   {
     bool is_first = true;
     for (unsigned int number = 1; number <= lines.size(); ++number)
@@ -151,7 +174,8 @@ namespace Talus
         continue;
       const std::string where = file_name + ":" + std::to_string(number);
       const bool        is_named =
-        is_first && is_header(split_at_blanks(std::regex_replace(line, std::regex("[,;]"), " ")), where);
+        is_first &&
+        (has_header || is_header(split_at_blanks(std::regex_replace(line, std::regex("[,;]"), " ")), where));
       is_first = false;
       if (is_named)
         continue;

@@ -46,8 +46,9 @@ namespace Talus
                             this->prm, Patterns::List(Patterns::Integer(1), dim, dim));
       }
 
-      void parse_parameters(ParameterHandler &) override
+      void parse_parameters(ParameterHandler &prm) override
       {
+        Shape<dim>::parse_parameters(prm);
         if (!(outer > inner))
           throw EntryError(this->get_section_name(), "Outer radius",
                            "the body is empty: it must be greater than the inner radius.");
@@ -146,7 +147,7 @@ namespace Talus
           if (!(at[d] > margin * spacing[d] && at[d] < (counts[d] - margin) * spacing[d]) &&
               !(d == 1 && end - start == 360))
             return false;
-        return true;
+        return this->where.holds(x);
       }
 
     private:
@@ -210,7 +211,8 @@ namespace Talus
           x[dim - 1] = centre[dim - 1] + (k + 0.5) * spacing[dim - 1];
           volume *= spacing[dim - 1];
         }
-        visitor(i + counts[0] * (j + counts[1] * k), x, volume);
+        if (this->where.holds(x))
+          visitor(i + counts[0] * (j + counts[1] * k), x, volume);
       }
 
       std::vector<double>       centre = std::vector<double>(dim, 0.);

@@ -9,12 +9,19 @@ namespace Talus
 
   namespace
   {
+    /** Whether a convex region has a box. */
+    template <int dim>
+    bool has_corners(const Region<dim> &region, const Point<dim> &lower, const Point<dim> &upper)
+    {
+      return holds_on_lattice<dim>(lower, upper, 2, [&](const Point<dim> &x) { return region.contains(x); });
+    }
+
     /** The box between two corners; "Lower corner", "Upper corner". */
     template <int dim>
-    class Box : public LatticeShape<dim>
+    class Box : public Region<dim>
     {
     public:
-      explicit Box(const std::string &section) : LatticeShape<dim>(section)
+      explicit Box(const std::string &section) : Region<dim>(section)
       {
         this->add_parameter("Lower corner", lower, "Corner of the body with the smallest coordinates [length].",
                             this->prm, coordinates(dim));
@@ -31,6 +38,7 @@ namespace Talus
         return BoundingBox<dim>({to_point<dim>(lower), to_point<dim>(upper)});
       }
       bool        contains(const Point<dim> &) const override { return true; }
+      bool        is_curved(const unsigned int) const override { return false; }
       std::string position_entry() const override { return "Lower corner"; }
 
       std::vector<std::string> face_names() const override
@@ -52,14 +60,13 @@ namespace Talus
 
     /** All points closer to a centre than the radius: a disk in 2D. */
     template <int dim>
-    class Ball : public LatticeShape<dim>
+    class Ball : public Region<dim>
     {
     public:
-      explicit Ball(const std::string &section) : LatticeShape<dim>(section)
+      explicit Ball(const std::string &section) : Region<dim>(section)
       {
         this->add_parameter("Centre", centre, "Centre of the ball [length].", this->prm, coordinates(dim));
         this->add_parameter("Radius", radius, "Radius of the ball [length].", this->prm, Patterns::Double());
-        this->add_edge_volumes();
       }
 
       BoundingBox<dim> bounding_box() const override
@@ -72,7 +79,7 @@ namespace Talus
         return BoundingBox<dim>({to_point<dim>(centre) - diagonal, to_point<dim>(centre) + diagonal});
       }
       bool        contains(const Point<dim> &x) const override { return x.distance(to_point<dim>(centre)) < radius; }
-      bool        is_curved(const unsigned int) const override { return true; }
+      bool        holds(const Point<dim> &a, const Point<dim> &b) const override { return has_corners(*this, a, b); }
       std::string position_entry() const override { return "Centre"; }
 
       std::vector<std::string> face_names() const override { return {"side"}; }
@@ -88,10 +95,10 @@ namespace Talus
 
     /** A cylinder between two planes of constant coordinate along its axis. */
     template <int dim>
-    class Cylinder : public LatticeShape<dim>
+    class Cylinder : public Region<dim>
     {
     public:
-      explicit Cylinder(const std::string &section) : LatticeShape<dim>(section)
+      explicit Cylinder(const std::string &section) : Region<dim>(section)
       {
         this->add_parameter("Centre", centre, "Middle of the cylinder's base [length].", this->prm, coordinates(dim));
         this->add_parameter("Radius", radius, "Radius of the cylinder [length].", this->prm, Patterns::Double());
@@ -99,7 +106,6 @@ namespace Talus
                             Patterns::Double());
         this->add_parameter("Axis", axis, "Direction of the axis.", this->prm,
                             Patterns::Selection(dim == 2 ? "x|y" : "x|y|z"));
-        this->add_edge_volumes();
       }
 
       BoundingBox<dim> bounding_box() const override
@@ -123,6 +129,7 @@ namespace Talus
         return r.norm() < radius;
       }
       bool        is_curved(const unsigned int d) const override { return dim == 3 && d != along(); }
+      bool        holds(const Point<dim> &a, const Point<dim> &b) const override { return has_corners(*this, a, b); }
       std::string position_entry() const override { return "Centre"; }
 
       std::vector<std::string> face_names() const override { return {"side", "base", "top"}; }
@@ -141,9 +148,8 @@ namespace Talus
       std::string         axis = "y";
     };
 
-    const RegisterDimensions<Shape, Box>      box("box", "box between two corners");
-    const RegisterDimensions<Shape, Ball>     ball("ball", "ball; a disk in 2D");
-    const RegisterDimensions<Shape, Cylinder> cylinder("cylinder",
-                                                       "cylinder along a coordinate axis; a rectangle in 2D");
+    const RegisterRegion<Box>      box("box", "box between two corners");
+    const RegisterRegion<Ball>     ball("ball", "ball; a disk in 2D");
+    const RegisterRegion<Cylinder> cylinder("cylinder", "cylinder along a coordinate axis; a rectangle in 2D");
   } // namespace
 } // namespace Talus

@@ -41,10 +41,10 @@ namespace Talus
 
     /** What a closed surface from a file holds; an STL file in 3D, polygons in 2D. */
     template <int dim>
-    class SurfaceShape : public LatticeShape<dim>
+    class SurfaceShape : public Region<dim>
     {
     public:
-      explicit SurfaceShape(const std::string &section) : LatticeShape<dim>(section)
+      explicit SurfaceShape(const std::string &section) : Region<dim>(section)
       {
         this->add_parameter("File", file_name,
                             dim == 3 ? "STL file of the body's surface, text or binary, closed." :
@@ -56,14 +56,13 @@ namespace Talus
                             Patterns::List(Patterns::Double(), dim, dim));
       }
 
-      void parse_parameters(ParameterHandler &prm) override
+      void parse_parameters(ParameterHandler &) override
       {
-        LatticeShape<dim>::parse_parameters(prm);
         if (!(scale > 0))
           throw EntryError(this->get_section_name(), "Scale", "it must be positive.");
       }
 
-      void create(const std::array<double, dim> &h) override
+      void read() override
       {
         Tensor<1, dim> move;
         for (unsigned int d = 0; d < dim; ++d)
@@ -76,12 +75,15 @@ namespace Talus
         {
           throw EntryError(this->get_section_name(), "File", error.message);
         }
-        LatticeShape<dim>::create(h);
       }
 
       dealii::BoundingBox<dim> bounding_box() const override { return surface->bounding_box(); }
       bool                     contains(const Point<dim> &x) const override { return surface->contains(x); }
-      std::string              position_entry() const override { return "Shift"; }
+      bool                     holds(const Point<dim> &lower, const Point<dim> &upper) const override
+      {
+        return surface->contains(lower) && !surface->may_meet(lower, upper);
+      }
+      std::string position_entry() const override { return "Shift"; }
 
       std::vector<std::string> face_names() const override { return {"surface"}; }
       Surface<dim>             face(const std::string &, const SurfaceSpacing<dim> &spacing) const override
@@ -104,6 +106,6 @@ namespace Talus
       std::optional<ClosedSurface<dim>> surface;
     };
 
-    const RegisterDimensions<Shape, SurfaceShape> registration("surface", "closed surface from an STL file; polygons");
+    const RegisterRegion<SurfaceShape> registration("surface", "closed surface from an STL file; polygons");
   } // namespace
 } // namespace Talus

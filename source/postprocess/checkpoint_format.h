@@ -1,7 +1,7 @@
 #pragma once
 
+#include <talus/particles/column_names.h>
 #include <talus/postprocess/checksum.h>
-#include <talus/postprocess/particle_fields.h>
 
 #include <cstdio>
 #include <string>
@@ -19,19 +19,5 @@ namespace Talus
     char number[24];
     std::snprintf(number, sizeof(number), "%020llu", static_cast<unsigned long long>(n_bytes));
     return "\nTalus checkpoint of " + std::string(number) + " bytes, checksum " + hexadecimal(checksum) + '\n';
-  }
-
-  /** Names of all columns, and their numbers. */
-  template <int dim>
-  std::vector<std::pair<std::string, unsigned int>> column_names(const WorkingSet<dim> &particles)
-  {
-    std::vector<std::pair<std::string, unsigned int>> names;
-    for (const auto &field : particles.fields)
-    {
-      const auto components = component_names(field.name, dim, field.n_components);
-      for (unsigned int c = 0; c < components.size(); ++c)
-        names.emplace_back(components[c], field.first + c);
-    }
-    return names;
   }
 } // namespace Talus

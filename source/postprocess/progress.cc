@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -20,7 +21,7 @@ namespace Talus
     /** Hours, minutes and seconds: 1:02:03. */
     std::string clock_time(const double seconds)
     {
-      const auto         n = static_cast<std::uint64_t>(seconds + 0.5);
+      const auto         n = static_cast<std::uint64_t>(std::llround(seconds));
       std::ostringstream text;
       text << n / 3600 << std::setfill('0') << ':' << std::setw(2) << n / 60 % 60 << ':' << std::setw(2) << n % 60;
       return text.str();

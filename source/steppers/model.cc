@@ -135,7 +135,7 @@ namespace Talus
     smoothing.initialize(materials, *kernel, particles, grid);
     f_bar.initialize(particles);
     for (const auto &body : bodies)
-      if (body->starts_deformed())
+      if (body->starts_deformed() && materials[body->material]->starts_deformed())
         materials[body->material]->update(material_range(particles, body->material, /* dt = */ 0.));
     for (auto &traction : tractions.loads)
       traction->attach(grid, bodies, particles);

@@ -26,8 +26,7 @@ def on_mesh(text, dim):
 def case_headers(runs):
     """Columns that are called otherwise are not read as coordinates and volumes; separators and signs without width."""
     rows = points(2)
-    for name, header in (("capitals", "V X Y"), ("mass", "x y mass"), ("no_volume", "x y z"), ("quoted", '"y","x","volume"'),
-                         ("number", "ID,X,Y")):
+    for name, header in (("capitals", "V X Y"), ("mass", "x y mass"), ("no_volume", "x y z"), ("number", "ID,X,Y")):
         path = write(runs, f"{name}.txt", header + "\n" + rows)
         refused(runs, name, "point_file.prm", [f"Bodies/b/File = {path}"], f"{name}.txt:1: the columns are called '.*', but are "
                 "read as 'x y volume'. Put them into this order, and call them so")
@@ -44,6 +43,46 @@ def case_headers(runs):
         x = [0.2 + 0.05 * k for k in range(12)]
         path = write(runs, f"{name}.txt", "".join(f"{a} {b} {0.05**2 * factor}\n" for a in x for b in x))
         warned(runs, name, "point_file.prm", [f"Bodies/b/File = {path}"], "entry 'File' in section 'Bodies/b'.*" + said)
+
+
+def case_tables(runs):
+    """A run that starts from another one's table goes on as that one did; names tell columns apart."""
+    columns = "velocity, velocity gradient, deformation gradient, stress, mass, volume, initial position"
+    disk = os.path.join(os.path.dirname(HERE), "compare", "disk_2d.prm")
+    common = ["Run/Step size = 2e-4", "Output/CSV = true", f"Output/Particle fields = {columns}"]
+    for law in ("linear elastic", "neo-Hookean"):
+        name, material = law.replace(" ", "_"), f"Materials/rubber/Type = {law}"
+        whole = last_particles(runs.run(disk, name, *common, material, "Run/Number of steps = 100"))
+        half = runs.run(disk, f"{name}_half", *common, material, "Run/Number of steps = 60")
+        table = max(file for file in os.listdir(half) if file.startswith("particles_") and file.endswith(".csv"))
+        start = open(disk).read().split("subsection Bodies")[0] + (
+            f"subsection Bodies\n  set Names = disk\n  subsection disk\n    set Shape = points\n    set File = {os.path.join(half, table)}\n  end\nend\n")
+        then = last_particles(runs.run(write(runs, f"{name}.prm", start), f"{name}_then", *common, material, "Run/Number of steps = 40"))
+        runs.check(f"{name}: particles", len(whole) - len(then), 0.5)
+        for key in ("x", "y", "velocity_x", "stress_xy", "deformation_gradient_xy", "initial_position_x"):
+            scale = max(abs(p[key]) for p in whole)
+            runs.check(f"{name}: {key}", max(abs(a[key] - b[key]) for a, b in zip(whole, then)) / scale, 1e-9)
+    rows = [(0.6 + 0.05 * i, 0.3 + 0.05 * j) for i in range(4) for j in range(4)]
+    path = write(runs, "turned.txt", '"y","volume","x"\n' + "".join(f"{y},0.0025,{x}\n" for x, y in rows))
+    particles = last_particles(runs.run("point_file.prm", "turned", f"Bodies/b/File = {path}", "Run/Number of steps = 1"))
+    runs.check("turned: least x", min(p["x"] for p in particles) - 0.6, 0.01)
+
+
+def case_where(runs):
+    """Conditions at the nodes where a formula holds: half of a floor bears half of a block, all nodes beyond a slope."""
+    floor = "set Type = no-slip\n    set Boundary ids = 2"
+    body = "set Lower corner = 0, 0\n    set Upper corner = 2, 1\n    set Velocity = 0; 1"
+    prm = write(runs, "where.prm", text_of(2, body=body, condition=floor))
+    taken = {}
+    for name, where in (("all", ""), ("left", "x < 1"), ("right", "x >= 1"), ("slope", "y < 0.5 * x")):
+        more = ["Conditions/floor/Boundary ids = "] if name == "slope" else []
+        s = columns_of(os.path.join(runs.run(prm, name, f"Conditions/floor/Where = {where}", "Run/Number of steps = 1", *more), "statistics.csv"))
+        taken[name] = s["reaction floor y"][-1] * s["time"][-1]  # momentum
+    runs.check("halves", (taken["left"] + taken["right"]) / taken["all"] - 1, 1e-12)
+    runs.check("a half", taken["left"] / taken["all"] - 0.5, 0.07)
+    runs.check("below a slope lies half of the block", taken["slope"] / (1000 * 2 * 0.5) - 1, 0.1)
+    refused(runs, "nowhere", prm, ["Conditions/floor/Where = x > 9"], "entry 'Where' in section 'Conditions/floor'", "holds at no node")
+    refused(runs, "of_time", prm, ["Conditions/floor/Where = x > t"], "entry 'Where' in section 'Conditions/floor'", "leave out t")
 
 
 def case_commas(runs):

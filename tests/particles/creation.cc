@@ -64,12 +64,13 @@ void numbers_of_points()
     upper[d] = 1;
   }
   double error = 0;
-  shape.visit(BoundingBox<dim>({lower, upper}), [&](const std::uint64_t index, const Point<dim> &x, const double) {
-    double expected = 0;
-    for (int d = dim - 1; d >= 0; --d)
-      expected = expected * n + std::floor(x[d] * n);
-    raise(error, static_cast<double>(index) - expected);
-  });
+  shape.visit(dealii::BoundingBox<dim>({lower, upper}),
+              [&](const std::uint64_t index, const Point<dim> &x, const double) {
+                double expected = 0;
+                for (int d = dim - 1; d >= 0; --d)
+                  expected = expected * n + std::floor(x[d] * n);
+                raise(error, static_cast<double>(index) - expected);
+              });
   check("indices", error, 0.5);
   check_true("jitter", hashed_jitter(1, 7, 0) != hashed_jitter(1, 7 + (1ull << 32), 0));
   h.fill(1e-10);

@@ -30,8 +30,15 @@ DECLARE(on_faces)
 DECLARE(edge_volumes)
 DECLARE(shifted_lattices)
 DECLARE(overlaps)
+DECLARE(joined_regions)
+DECLARE(where)
 void point_table();
 void bodies_from_surfaces();
+void polygons();
+void polygon_faces();
+void rasters();
+void wrong_regions();
+void named_columns();
 
 int main(int argc, char **argv)
 {
@@ -91,5 +98,14 @@ int main(int argc, char **argv)
                     {"ring errors 3D", ring_errors<3>},
                     {"clip to grid 2D", clipped<2>},
                     {"clip to grid 3D", clipped<3>},
-                    {"bodies from surfaces", bodies_from_surfaces}});
+                    {"bodies from surfaces", bodies_from_surfaces},
+                    {"polygons", polygons},
+                    {"faces of polygons", polygon_faces},
+                    {"joined regions 2D", joined_regions<2>},
+                    {"joined regions 3D", joined_regions<3>},
+                    {"where 2D", where<2>},
+                    {"where 3D", where<3>},
+                    {"rasters", rasters},
+                    {"wrong regions", wrong_regions},
+                    {"named columns", named_columns}});
 }

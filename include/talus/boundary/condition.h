@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/boundary/damping.h>
+#include <talus/core/function.h>
 #include <talus/core/reduction.h>
 #include <talus/core/table.h>
 #include <talus/grid/walls.h>
@@ -187,6 +188,9 @@ namespace Talus
     /** Finds the nodes of the named parts of a mesh's boundary. */
     void attach_parts(const Grid<dim> &grid);
 
+    /** Leaves out the nodes where the formula does not hold. */
+    void keep_where(const Grid<dim> &grid);
+
     /** Counts the component along n as held; returns whether it was free until now. */
     bool hold(const unsigned int i, const dealii::Tensor<1, dim> &n);
 
@@ -198,6 +202,8 @@ namespace Talus
     std::vector<std::string>               half_spaces;
     std::vector<double>                    positions; // of their planes [length]
     std::vector<double>                    lower, upper;
+    std::string                            where_text;
+    ParsedCondition<dim>                   where;
     std::vector<double>                    start_time, end_time; // one number or none
     bool                                   is_box = true;        // the grid
     double                                 dt     = 0;

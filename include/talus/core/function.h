@@ -27,6 +27,9 @@ namespace Talus
     /** The same, whatever it is. */
     dealii::Tensor<1, dim> evaluate(const dealii::Point<dim> &x, const double time) const;
 
+    /** One component of it. */
+    double component(const dealii::Point<dim> &x, const double time, const unsigned int c) const;
+
     bool is_zero() const { return zero; }
     bool depends_on_space() const { return varies; }
 
@@ -36,6 +39,28 @@ namespace Talus
     bool                                         zero   = true;
     bool                                         varies = false;
     std::optional<dealii::Tensor<1, dim>>        constant; // what it is everywhere and always
+  };
+
+  /**
+   * A condition on places from the parameter file, "y < 3 + 0.2*sin(x) && x > 1": a formula of x, y, z that is not 0
+   * where it holds. Test: tests/core/expressions.cc.
+   */
+  template <int dim>
+  class ParsedCondition
+  {
+  public:
+    /** Sets it; an empty one holds everywhere. A bad formula is blamed on `entry` of `section` by an EntryError. */
+    void initialize(const std::string &expression, const std::string &section, const std::string &entry);
+
+    bool is_given() const { return given; }
+
+    /** Throws EntryError where the formula has no finite value. */
+    bool holds(const dealii::Point<dim> &x) const;
+
+  private:
+    ParsedVector<dim> formula; // the same for all components
+    std::string       expression, section, entry;
+    bool              given = false;
   };
 
   /**

@@ -27,12 +27,16 @@ namespace Talus
     /**
      * Corners of the parts, `dim` for each, in an order that is the same for all as seen from outside, or from inside.
      * Equal points are one vertex; parts without extent are left out. Throws InputError, which calls the surface by
-     * `name`, where it is empty or not closed, or where its parts are turned against each other.
+     * `name`, where it is empty or not closed, where its parts are turned against each other, and in 2D where edges
+     * cross.
      */
     ClosedSurface(const std::vector<Point> &corners, const std::string &name);
 
     /** Whether a point lies inside. One on the surface, but for round-off, may be either. */
     bool contains(const Point &x) const;
+
+    /** Whether a part may meet a box: in 2D whether one does. If not, the box is inside as a whole, or outside. */
+    bool may_meet(const Point &lower, const Point &upper) const;
 
     /** Volume inside [length^dim], positive. */
     double volume() const { return inner_volume; }
@@ -49,6 +53,9 @@ namespace Talus
     void merge(const std::vector<Point> &corners);
     void check_closed(const std::string &name) const;
 
+    /** Throws where edges of polygons cross. */
+    void check_crossings(const std::string &name) const;
+
     /** For each part a number that tells the connected pieces of the surface apart. */
     std::vector<unsigned int> shells() const;
 
@@ -60,6 +67,11 @@ namespace Talus
     // Of parts seen along x: in planes across it.
     std::unique_ptr<Bins<dim - 1>> columns;
   };
+
+  template <>
+  void ClosedSurface<2>::check_crossings(const std::string &name) const;
+  template <>
+  void ClosedSurface<3>::check_crossings(const std::string &name) const;
 
   /**
    * Reads a surface: in 3D an STL file, text or binary; in 2D a text file of polygons, "x y" in each line, the first

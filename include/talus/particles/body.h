@@ -18,9 +18,13 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
-    /** Writes the initial state of a particle at `x` into its properties, one for each column of `set`. */
-    void initialize(const dealii::Point<dim> &x, const double volume, const Material &material,
-                    const WorkingSet<dim> &set, std::vector<double> &properties) const;
+    /** Finds the columns that the shape's points have with them. Throws EntryError for one that particles do not have.
+     */
+    void find_given_columns(const WorkingSet<dim> &set);
+
+    /** Writes the initial state of point `index`, at `x`, into its properties, one for each column of `set`. */
+    void initialize(const std::uint64_t index, const dealii::Point<dim> &x, const double volume,
+                    const Material &material, const WorkingSet<dim> &set, std::vector<double> &properties) const;
 
     /** An initial stress that grows with the depth below a surface. */
     struct Layer
@@ -41,7 +45,7 @@ namespace Talus
     bool has_initial_stress() const { return stress_kind != "none"; }
 
     /** Whether it starts with a deformation gradient, from which its material has the stress. */
-    bool starts_deformed() const { return !deformation_gradient.empty(); }
+    bool starts_deformed() const { return !deformation_gradient.empty() || gives_F; }
 
     std::string                 name;
     unsigned int                material; // index
@@ -50,6 +54,10 @@ namespace Talus
     bool                        is_clipped = false; // what lies outside the grid is left out
 
   private:
+    /** Takes over what the shape has of a point, with what follows from it. */
+    void take_given(const std::uint64_t index, const dealii::Point<dim> &x, const double volume,
+                    const Material &material, const WorkingSet<dim> &set, std::vector<double> &properties) const;
+
     /** Components xx, yy, zz, xy, xz, yz of the stress at `x` before the first step. */
     std::array<double, 6> initial_stress(const dealii::Point<dim> &x, const Material &material) const;
 
@@ -58,6 +66,9 @@ namespace Talus
 
     /** True when the stress grows with the depth below a surface. */
     bool is_layered() const { return stress_kind == "geostatic" || stress_kind == "hydrostatic"; }
+
+    std::vector<unsigned int> given; // columns that the points have with them
+    bool                      gives_F = false, gives_stress = false, gives_mass = false;
 
     ParsedVector<dim>   velocity;
     std::string         velocity_text;

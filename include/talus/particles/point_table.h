@@ -18,8 +18,14 @@ namespace Talus
     /** `names` of the columns: "x", "y", "volume". */
     explicit PointTable(std::vector<std::string> names) : names(std::move(names)) {}
 
-    /** Reads lines of the file that messages call `file_name`. */
-    void read(const std::vector<std::string> &lines, const std::string &file_name);
+    /** Reads lines of the file that messages call `file_name`; `has_header`: the first are names that are known. */
+    void read(const std::vector<std::string> &lines, const std::string &file_name, const bool has_header = false);
+
+    /**
+     * What the columns are called in the first line that is no comment, in small letters, blanks as underscores and
+     * without units; empty where that line has numbers.
+     */
+    static std::vector<std::string> header(const std::vector<std::string> &lines);
 
     unsigned int n_columns() const { return names.size(); }
     std::size_t  n_rows() const { return numbers.size() / names.size(); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/function.h>
 #include <talus/core/parameters.h>
 #include <talus/particles/surface.h>
 
@@ -26,7 +27,17 @@ namespace Talus
     /** Receives the index of a point within its body, its position and its volume. */
     using Visitor = std::function<void(const std::uint64_t index, const Point &x, const double volume)>;
 
-    using dealii::ParameterAcceptor::ParameterAcceptor;
+    explicit Shape(const std::string &section) : dealii::ParameterAcceptor(section)
+    {
+      this->add_parameter("Where", where_text,
+                          "A formula of x, y, z: the body is the part of the shape where it is not 0, 'y < 3 + "
+                          "0.2*sin(x) && x > 1' [length]; empty: all of it.");
+    }
+
+    void parse_parameters(dealii::ParameterHandler &) override
+    {
+      where.initialize(where_text, this->get_section_name(), "Where");
+    }
 
     /** Prepares the points; `h` is the grid's spacing. Throws EntryError for an impossible shape. */
     virtual void create(const std::array<double, dim> &h) = 0;
@@ -51,6 +62,12 @@ namespace Talus
         edges[d][d] = 0.5 * std::pow(volume, 1. / dim);
       return edges;
     }
+
+    /** Columns of particles that the points have with them, by their names: "velocity_x", "stress_xy". */
+    virtual std::vector<std::string> given_columns() const { return {}; }
+
+    /** What a point has in each of these. */
+    virtual const double *given_values(const std::uint64_t /*index*/) const { return nullptr; }
 
     /** Whether x lies within the region that the points stand for, and not on its surface; a list of points has none.
      */
@@ -78,10 +95,16 @@ namespace Talus
     virtual std::uint64_t n_indices() const = 0;
 
   protected:
+    /** What the file says of the part of the shape that the body is. */
+    ParsedCondition<dim> where;
+
     /** Where part number `part` of n things in `n_parts` begins; where the last one ends for part = n_parts. */
     static std::uint64_t part_begin(const std::uint64_t n, const unsigned int part, const unsigned int n_parts)
     {
       return n / n_parts * part + std::min<std::uint64_t>(n % n_parts, part);
     }
+
+  private:
+    std::string where_text;
   };
 } // namespace Talus

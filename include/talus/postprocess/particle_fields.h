@@ -1,5 +1,6 @@
 #pragma once
 
+#include <talus/core/component_names.h>
 #include <talus/particles/working_set.h>
 
 #include <functional>
@@ -21,9 +22,6 @@ namespace Talus
     bool                     is_vector;  // dim components along the axes
     Evaluate                 evaluate;
   };
-
-  /** Names of the n components of a field: "velocity_x", ...; blanks become underscores. */
-  std::vector<std::string> component_names(const std::string &name, const unsigned int dim, const unsigned int n);
 
   /**
    * All quantities that a run can write: every field of `particles` and, derived, body, material,
