@@ -1,4 +1,7 @@
-"""No function of the program and its tests over 60 lines, no file over 300: what is longer nobody reads at once."""
+"""
+No function of the program and its tests over 60 lines, no file over 300: what is longer nobody reads at once. And no class of
+one name in two headers, which no compiler sees where no file includes both.
+"""
 
 import pathlib
 import re
@@ -20,13 +23,22 @@ def functions(lines):
             yield first, last - first - 1
 
 
+def classes(text):
+    """Names of the classes that a header defines in the namespace of the program."""
+    return re.findall(r"^  (?:class|struct) (\w+)(?: final)?\s*(?::[^;{]*)?\n  \{", text, re.M)
+
+
 def main():
-    problems = []
+    problems, headers = [], {}
     for folder in sys.argv[1:]:
         for path in sorted(pathlib.Path(folder).rglob("*")):
             if path.suffix not in (".cc", ".h"):
                 continue
-            lines = path.read_text().splitlines()
+            text = path.read_text()
+            lines = text.splitlines()
+            for name in classes(text) if path.suffix == ".h" and "include" in path.parts else []:
+                if headers.setdefault(name, path) != path:
+                    problems.append(f"{path}: a class '{name}' is in {headers[name]} as well")
             if len(lines) > LONGEST_FILE:
                 problems.append(f"{path}: {len(lines)} lines, more than {LONGEST_FILE}")
             problems += [f"{path}:{first + 1}: a function of {length} lines, more than {LONGEST_FUNCTION}"

@@ -28,6 +28,9 @@ namespace Talus
                   Patterns::Double());
     add_parameter("Softening strain", softening_strain,
                   "Equivalent plastic strain at which the residual values are reached [1].", prm, Patterns::Double());
+    softening_slip.add_entries(*this,
+                               "In place of a softening strain: slip of a shear band at which the residual values "
+                               "are reached");
     add_parameter("Tension strength", tension_strength,
                   "Greatest tension [stress]; negative, or more than c cot(phi): that.", prm, Patterns::Double());
   }
@@ -68,6 +71,17 @@ namespace Talus
     if (!(softening_strain > 0))
       throw EntryError(get_section_name(), "Softening strain",
                        "it must be positive. A law that does not soften leaves out the residual values.");
+    softening_slip.check(get_section_name());
+  }
+
+  void MohrCoulomb::set_spacing(const double spacing)
+  {
+    if (!softening_slip.is_given())
+      return;
+    softening_strain = softening_slip.strain(spacing);
+    // What friction loses hangs on the pressure, and is not known here.
+    if (cohesion > residual_cohesion)
+      softening_slip.check_spacing(get_section_name(), spacing, cohesion - residual_cohesion, shear_modulus());
   }
 
   std::vector<EntryError> MohrCoulomb::doubts() const

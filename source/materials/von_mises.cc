@@ -23,6 +23,9 @@ namespace Talus
     add_parameter("Softening rate", softening_rate,
                   "Of exponential softening: eta in exp(-eta times equivalent plastic strain) [1].", prm,
                   Patterns::Double());
+    softening_slip.add_entries(*this,
+                               "Of exponential softening, in place of a rate: slip of a shear band over which what "
+                               "strength is lost falls to 1/e");
     add_parameter("Strength norm", norm,
                   "What of the deviator s the entries bound: von Mises: sqrt(3/2) |s|, tension; deviator: |s|.", prm,
                   Patterns::Selection("von Mises|deviator"));
@@ -43,16 +46,29 @@ namespace Talus
     {
       check(residual_stress >= 0 && residual_stress <= yield_stress, "Residual yield stress",
             "it must lie between 0 and the yield stress.");
+      softening_slip.check(get_section_name());
       check(softening_rate > 0, "Softening rate",
             "it must be positive. Use 'Hardening = perfect' for a constant yield stress.");
       std::ostringstream greatest;
       const double       range = in_tension() * (yield_stress - residual_stress);
       greatest << 3 * shear_modulus() / range;
       check(
-        softening_rate * range < 3 * shear_modulus(), "Softening rate",
+        softening_slip.is_given() || softening_rate * range < 3 * shear_modulus(), "Softening rate",
         "the yield stress falls faster than the stress can follow (3 G), which has no unique answer. Lower it below " +
           greatest.str() + ", or raise Young's modulus.");
     }
+    else
+      check(!softening_slip.is_given(), "Softening slip", "it belongs to 'Hardening = exponential softening'.");
+  }
+
+  void VonMises::set_spacing(const double spacing)
+  {
+    if (!softening_slip.is_given())
+      return;
+    softening_rate    = 1 / softening_slip.strain(spacing);
+    const double drop = in_tension() * (yield_stress - residual_stress) / std::sqrt(3.); // in shear
+    if (drop > 0)
+      softening_slip.check_spacing(get_section_name(), spacing, drop, shear_modulus());
   }
 
   namespace

@@ -69,8 +69,7 @@ namespace Talus
     for (const auto &body : bodies)
       n_indices += body->shape->n_indices();
     this->reserve(1.1 * n_indices / Utilities::MPI::n_mpi_processes(grid.communicator));
-    // The handler is emptied by portions that fit into the cache.
-    constexpr unsigned int portion   = 1 << 14;
+    constexpr unsigned int portion   = 1 << 14; // by which the handler is emptied: one fits into the cache
     unsigned int           n_handled = 0;
 
     std::vector<double>        properties(this->n_columns());

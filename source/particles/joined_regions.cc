@@ -11,15 +11,15 @@ namespace Talus
   {
     /** A region made of others, each in a subsection of its own. */
     template <int dim>
-    class Joined : public Region<dim>
+    class Joined : public FilledRegion<dim>
     {
     public:
-      Joined(Parameters &parameters, const std::string &section) : Region<dim>(section)
+      Joined(Parameters &parameters, const std::string &section) : FilledRegion<dim>(section)
       {
         names = parameters.names(section, "Regions that it is made of; each has a subsection of this name.");
         for (const auto &name : names)
           parts.push_back(
-            parameters.make<Region<dim>>(section + "/" + name, "Shape", "box", "What kind of region it is."));
+            parameters.make<FilledRegion<dim>>(section + "/" + name, "Shape", "box", "What kind of region it is."));
       }
 
       std::string position_entry() const override { return "Names"; }
@@ -55,8 +55,8 @@ namespace Talus
         return BoundingBox<dim>(corners);
       }
 
-      std::vector<std::string>                  names;
-      std::vector<std::unique_ptr<Region<dim>>> parts;
+      std::vector<std::string>                        names;
+      std::vector<std::unique_ptr<FilledRegion<dim>>> parts;
     };
 
     /** What lies in any of them. */

@@ -30,7 +30,7 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  LatticeShape<dim>::LatticeShape(std::unique_ptr<Region<dim>> filled) :
+  LatticeShape<dim>::LatticeShape(std::unique_ptr<FilledRegion<dim>> filled) :
     Shape<dim>(filled->get_section_name()), region(std::move(filled))
   {
     this->add_parameter("Particles per cell and direction", points_per_cell,

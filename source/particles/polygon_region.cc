@@ -13,10 +13,10 @@ namespace Talus
   {
     /** A polygon in 2D; in 3D a prism that has it as its section across an axis. */
     template <int dim>
-    class Polygon : public Region<dim>
+    class Polygon : public FilledRegion<dim>
     {
     public:
-      explicit Polygon(const std::string &section) : Region<dim>(section)
+      explicit Polygon(const std::string &section) : FilledRegion<dim>(section)
       {
         const std::string plane = dim == 2 ? "x, y" : "the two coordinates across the axis, in the order x, y, z";
         this->add_parameter(

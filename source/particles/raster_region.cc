@@ -13,10 +13,10 @@ namespace Talus
   {
     /** The ground below a surface of heights, down to a level or to another surface; z is upwards. */
     template <int dim>
-    class RasterRegion : public Region<dim>
+    class RasterRegion : public FilledRegion<dim>
     {
     public:
-      explicit RasterRegion(const std::string &section) : Region<dim>(section)
+      explicit RasterRegion(const std::string &section) : FilledRegion<dim>(section)
       {
         this->add_parameter("File", file_name, "ESRI ASCII grid of the heights of the surface.", this->prm,
                             Patterns::FileName());

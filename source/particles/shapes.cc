@@ -11,17 +11,17 @@ namespace Talus
   {
     /** Whether a convex region has a box. */
     template <int dim>
-    bool has_corners(const Region<dim> &region, const Point<dim> &lower, const Point<dim> &upper)
+    bool has_corners(const FilledRegion<dim> &region, const Point<dim> &lower, const Point<dim> &upper)
     {
       return holds_on_lattice<dim>(lower, upper, 2, [&](const Point<dim> &x) { return region.contains(x); });
     }
 
     /** The box between two corners; "Lower corner", "Upper corner". */
     template <int dim>
-    class Box : public Region<dim>
+    class Box : public FilledRegion<dim>
     {
     public:
-      explicit Box(const std::string &section) : Region<dim>(section)
+      explicit Box(const std::string &section) : FilledRegion<dim>(section)
       {
         this->add_parameter("Lower corner", lower, "Corner of the body with the smallest coordinates [length].",
                             this->prm, coordinates(dim));
@@ -60,10 +60,10 @@ namespace Talus
 
     /** All points closer to a centre than the radius: a disk in 2D. */
     template <int dim>
-    class Ball : public Region<dim>
+    class Ball : public FilledRegion<dim>
     {
     public:
-      explicit Ball(const std::string &section) : Region<dim>(section)
+      explicit Ball(const std::string &section) : FilledRegion<dim>(section)
       {
         this->add_parameter("Centre", centre, "Centre of the ball [length].", this->prm, coordinates(dim));
         this->add_parameter("Radius", radius, "Radius of the ball [length].", this->prm, Patterns::Double());
@@ -95,10 +95,10 @@ namespace Talus
 
     /** A cylinder between two planes of constant coordinate along its axis. */
     template <int dim>
-    class Cylinder : public Region<dim>
+    class Cylinder : public FilledRegion<dim>
     {
     public:
-      explicit Cylinder(const std::string &section) : Region<dim>(section)
+      explicit Cylinder(const std::string &section) : FilledRegion<dim>(section)
       {
         this->add_parameter("Centre", centre, "Middle of the cylinder's base [length].", this->prm, coordinates(dim));
         this->add_parameter("Radius", radius, "Radius of the cylinder [length].", this->prm, Patterns::Double());

@@ -41,10 +41,10 @@ namespace Talus
 
     /** What a closed surface from a file holds; an STL file in 3D, polygons in 2D. */
     template <int dim>
-    class SurfaceShape : public Region<dim>
+    class SurfaceShape : public FilledRegion<dim>
     {
     public:
-      explicit SurfaceShape(const std::string &section) : Region<dim>(section)
+      explicit SurfaceShape(const std::string &section) : FilledRegion<dim>(section)
       {
         this->add_parameter("File", file_name,
                             dim == 3 ? "STL file of the body's surface, text or binary, closed." :

@@ -146,7 +146,7 @@ namespace Talus
       model.smoothing.apply(model.materials, *model.kernel, dt, model.particles, model.grid);
     }
     move_nodes(model, time, dt);
-    Report report = move_particles(model, time, dt);
+    Report report = move_particles(model, last, time, dt);
     report.news   = upkeep.news;
     return report;
   }
@@ -176,7 +176,7 @@ namespace Talus
   }
 
   template <int dim>
-  Report Explicit<dim>::move_particles(Model<dim> &model, const double time, const double dt)
+  Report Explicit<dim>::move_particles(Model<dim> &model, const Report &last, const double time, const double dt)
   {
     Particles<dim> &particles = model.particles;
     const auto      ranges    = material_ranges(particles, dt, model.transfer->is_plain);
@@ -233,7 +233,7 @@ namespace Talus
     const Timing::Scope scope(*timing, relocate);
     model.tractions.finish(particles);
     model.contacts.finish(particles);
-    const Report report = watch->finish(displacement);
+    const Report report = watch->finish(displacement, &last);
     model.contacts.check(model.grid.communicator);
     return report;
   }

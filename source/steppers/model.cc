@@ -117,6 +117,8 @@ namespace Talus
                            "none. Take a B-spline.");
       body->shape->create(grid.spacing);
     }
+    for (const auto &material : materials)
+      material->set_spacing(grid.largest_spacing);
     check_memory();
     const Reach reach = transfer->reach(*kernel);
     grid.create([&](const auto &cell) { return Particles<dim>::count(grid, bodies, cell); }, reach);

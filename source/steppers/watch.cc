@@ -47,15 +47,16 @@ namespace Talus
     const WorkingSet<dim> &particles = model.particles;
     x = particles.template components<dim>(model.acceleration.is_of_initial_position() ? particles.initial_position :
                                                                                          particles.position);
-    v = particles.template components<dim>(particles.velocity);
-    F = particles.template components<dim * dim>(particles.F);
-    grad_v = particles.template components<dim * dim>(particles.grad_v);
-    stress = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-    mass   = particles.component(particles.mass, 0);
+    position = particles.template components<dim>(particles.position);
+    v        = particles.template components<dim>(particles.velocity);
+    F        = particles.template components<dim * dim>(particles.F);
+    grad_v   = particles.template components<dim * dim>(particles.grad_v);
+    stress   = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass     = particles.component(particles.mass, 0);
 
     b                 = model.acceleration.uniform_value(time);
     sums.signal_speed = sums.mass = sums.kinetic_energy = 0.;
-    sums.momentum                                       = Tensor<1, dim, Number>();
+    sums.moment                                         = Tensor<1, dim, Number>();
     body_force_power                                    = 0;
     failed                                              = Particles<dim>::none;
   }
@@ -92,15 +93,17 @@ namespace Talus
   void Watch<dim>::add_up(const unsigned int begin, const unsigned int end, const double *speeds,
                           const double largest_volume_ratio)
   {
-    Sums here      = sums; // in registers
-    auto is_broken = Number(1.) < Number(0.);
+    Sums       here      = sums; // in registers
+    const auto middle    = 0.5 * (model.grid.lower + Tensor<1, dim>(model.grid.upper));
+    auto       is_broken = Number(1.) < Number(0.);
     for_each_batch(begin, end, [&](const auto batch) {
       const auto   v_p = load_vector<dim>(batch, v);
       const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
       here.signal_speed = max(here.signal_speed, batch.load(speeds) + sqrt(squares));
       here.mass += counted_mass;
       here.kinetic_energy += 0.5 * counted_mass * squares;
-      here.momentum += counted_mass * v_p;
+      for (unsigned int d = 0; d < dim; ++d)
+        here.moment[d] += counted_mass * (batch.load(position[d]) - middle[d]);
       is_broken = is_broken | !limits(batch, squares, largest_volume_ratio).are_kept();
     });
     sums = here;
@@ -146,7 +149,7 @@ namespace Talus
   }
 
   template <int dim>
-  Report Watch<dim>::finish(const double displacement)
+  Report Watch<dim>::finish(const double displacement, const Report *before)
   {
     const auto &particles = model.particles;
     if (particles.outside != particles.none && particles.outside != failed)
@@ -162,17 +165,19 @@ namespace Talus
     report.has_failed       = failed != particles.none;
     report.mass             = sum(sums.mass);
     report.kinetic_energy   = sum(sums.kinetic_energy);
-    if (model.acceleration.depends_on_space())
-      report.body_force_power = body_force_power;
-    else
-      for (unsigned int d = 0; d < dim; ++d)
-        report.body_force_power += b[d] * sum(sums.momentum[d]);
+    report.body_force_power = body_force_power;
+    for (unsigned int d = 0; d < dim; ++d)
+      report.moment[d] = sum(sums.moment[d]);
 
     // One message for all global numbers of a step.
     Reduction reduction;
     report.add_to(reduction);
     model.add_to(reduction);
     reduction.run(model.grid.communicator);
+    // Force times way, and not times the particles' velocities: beyond mirrors, and with CPLS, these move elsewhere.
+    if (before != nullptr && dt > 0 && !model.acceleration.depends_on_space())
+      for (unsigned int d = 0; d < dim; ++d)
+        report.body_force_power += b[d] * (report.moment[d] - before->moment[d]) / dt;
     if (report.has_failed)
       describe_failure(report);
     return report;

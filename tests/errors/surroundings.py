@@ -217,7 +217,7 @@ CASES = {
                                                                       os.path.join(directory, "points.txt")),
                 "has 2 particles, and the bodies of its run have 3", "changed", changes=[(BOX, POINTS)]),
     ] + ([
-        resumed("checkpoints of another version", inside(set_format), "has the format 99", "reads format 1",
+        resumed("checkpoints of another version", inside(set_format), "has the format 99", "reads format 2",
                 "Go on with the version that wrote it"),
         resumed("checkpoints of another problem", inside(other_body), r"has \d+ particles, and the bodies of its run have \d+"),
         resumed("checkpoints without a column", inside(remove_column), "particles/velocity_x", "another version"),

@@ -10,6 +10,13 @@ POINTS = "# x y volume\n0.5 0.5 0.01\n0.6 0.5 0.01\n0.7, 0.5, 0.01\n0.8;0.5;1d-2
 POLYGON = "0.3 0.3\n1.5 0.3\n1.5 0.7\n0.3 0.7\n0.3 0.3\n"
 FACETS = [((0, 0, 0), (0, 1, 0), (1, 0, 0)), ((0, 0, 0), (1, 0, 0), (0, 0, 1)), ((0, 0, 0), (0, 0, 1), (0, 1, 0)),
           ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+TABLE = ("# time 0 [time]\nid,body,x,y,volume,velocity_x,velocity_y,stress_xx,stress_yy,stress_zz,stress_xy,weight\n" +
+         "".join(f"{i},{i % 2},{0.5 + 0.1 * i},0.5,0.01,1,0,-1,-2,-3,0.5,9\n" for i in range(5)))
+RASTER = ("ncols 5\nnrows 4\nxllcenter 0\nyllcorner -0.125\ncellsize 0.25\nNODATA_value -9999\n" +
+          "\n".join(" ".join(f"{0.5 + 0.05 * i * j:.2f}" for i in range(5)) for j in range(4)) + "\n")
+UNION = ("    set Shape = difference\n    set Names = all, hole\n    subsection all\n      set Shape = polygon\n"
+         "      set Corners = 0.3, 0.3; 1.6, 0.3; 1.4, 0.8; 0.3, 0.7\n    end\n    subsection hole\n      set Shape = ball\n"
+         "      set Centre = 0.8, 0.5\n      set Radius = 0.15\n    end\n")
 STL = "solid tet\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join(
     f"vertex {0.2 + 0.6 * x} {0.2 + 0.6 * y} {0.2 + 0.6 * z}\n" for x, y, z in facet) + "endloop\nendfacet\n" for facet in FACETS
 ) + "endsolid tet\n"
@@ -185,11 +192,20 @@ SEEDS = {
     "solution": (with_section(material(BASE, "neo-Hookean"), "subsection Verification\n  set Solution = vortex\nend\n"), {}),
     "points": (changed(BASE, (BOX, "    set Shape = points\n    set File = points.txt\n")), {"points.txt": POINTS}),
     "polygon": (changed(BASE, (BOX, "    set Shape = surface\n    set File = outline.txt\n")), {"outline.txt": POLYGON}),
+    "table": (changed(BASE, (BOX, "    set Shape = points\n    set File = table.csv\n    set Ignore columns = weight\n"
+                                  "    set Only body = 1\n")), {"table.csv": TABLE}),
+    "regions": (changed(BASE, (BOX, UNION)), {}),
+    "where": (changed(BASE, (BOX, BOX + "    set Where = y < 0.5 + 0.1 * sin(5 * x) && x > 0.3\n"),
+                      ("set Boundary ids = 2", "set Boundary ids = 2\n    set Where = x < 1")), {}),
+    "slip": (material(BASE, "Mohr-Coulomb", "    set Cohesion = 1e4\n    set Residual cohesion = 1e3\n    set Softening slip = 0.5\n"
+                      "    set Band width = 2\n"), {}),
     "ring": (changed(BASE, (BOX, "    set Shape = ring\n    set Centre = 1, 0.5\n    set Inner radius = 0.1\n"
                                  "    set Outer radius = 0.4\n")), {}),
     "mesh": (changed(BASE, *MESH), {}),
     "file": (changed(BASE, *FILE), {"mesh.msh": read("tests/mesh/data/plate.msh")}),
     "ball 3D": (CUBE.format(kernel="quadratic B-spline", shape="    set Shape = ball\n    set Centre = 0.5, 0.5, 0.5\n"
                                                                "    set Radius = 0.3"), {}),
+    "raster 3D": (CUBE.format(kernel="linear", shape="    set Shape = raster\n    set File = dem.asc\n    set Bottom = 0.2"),
+                  {"dem.asc": RASTER}),
     "surface 3D": (CUBE.format(kernel="linear", shape="    set Shape = surface\n    set File = body.stl"), {"body.stl": STL}),
 }

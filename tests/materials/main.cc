@@ -104,6 +104,12 @@ namespace objectivity
 
 void batches();
 
+namespace softening_slip
+{
+  void energy();
+  void errors();
+} // namespace softening_slip
+
 namespace
 {
   std::vector<Test::Case> elastic_laws()
@@ -179,6 +185,8 @@ namespace
             {"Newtonian fluid: energy", newtonian_fluid::energy},
             {"Newtonian fluid: numbers", newtonian_fluid::numbers},
             {"Newtonian fluid: parameter errors", newtonian_fluid::parameter_errors},
+            {"softening slip: energy", softening_slip::energy},
+            {"softening slip: errors", softening_slip::errors},
             {"all laws: constant rotation", objectivity::constant_rotation},
             {"all laws: superposed rotation", objectivity::superposed_rotation},
             {"all laws: constant spin", objectivity::constant_spin},

@@ -16,15 +16,16 @@ namespace
   template <int dim>
   std::string text_of(const BalanceCase &one, const unsigned int n_cells)
   {
-    const std::string cells    = coordinates<dim>({{1. * n_cells, 1. * n_cells, 1. * n_cells}});
-    const std::string floor    = set("Boundary ids", "2");
-    const std::string of_mesh  = set("Half spaces", "y <= 0");
-    const bool        is_mesh  = one.grid == "mesh";
+    const std::string cells   = coordinates<dim>({{1. * n_cells, 1. * n_cells, 1. * n_cells}});
+    const std::string floor   = set("Boundary ids", "2");
+    const bool        is_mesh = one.grid == "mesh", has_mirrors = one.treatment == "mirrors";
+    const std::string of_mesh  = has_mirrors ? set("Boundaries", "lower y") : set("Half spaces", "y <= 0");
+    const std::string mirrors  = set(one.condition == "slip" ? "Slip mirrors" : "No-slip mirrors", "lower y");
     const std::string velocity = dim == 2 ? "0.2 - 2 * (y - 0.35); -1 + 2 * (x - 0.5)" :
                                             "0.2 - 2 * (y - 0.35); -1 + 2 * (x - 0.5) - (z - 0.5); (y - 0.35)";
     const std::string gradient = dim == 2 ? "0, -2, 2, 0" : "0, -2, 0, 2, 0, -1, 0, 1, 0";
-    return section("Grid",
-                   set("Type", one.grid) + set("Upper corner", coordinates<dim>({{1, 1, 1}})) + set("Cells", cells)) +
+    return section("Grid", set("Type", one.grid) + set("Upper corner", coordinates<dim>({{1, 1, 1}})) +
+                             set("Cells", cells) + (has_mirrors ? mirrors : "")) +
            section("Kernel", set("Type", one.kernel) + (is_mesh ? "" : set("Boundary treatment", one.treatment))) +
            section("Transfer", set("Type", one.transfer)) +
            section("Run",
@@ -113,6 +114,9 @@ void energy_account()
                                             {"box", spline, "none", "TPIC", "no-slip", rubber, set("MUSL", "true")},
                                             {"mesh", "UMLS", "", "FLIP", "slip", rubber, ""},
                                             {"mesh", "UMLS", "", "APIC", "no-slip", rubber, ""},
+                                            {"mesh", "UMLS", "mirrors", "FLIP", "no-slip", rubber, ""},
+                                            {"mesh", "UMLS", "mirrors", "FLIP", "slip", clay, set("F-bar", "true")},
+                                            {"box", spline, "mirror", "FLIP", "slip", rubber, ""},
                                             {"box", spline, "ghost nodes", "TPIC", "slip", clay, set("F-bar", "true")},
                                             {"mesh", "UMLS", "", "APIC", "no-slip", clay, set("F-bar", "true")},
                                             {"mesh", "C1 UMLS", "", "TPIC", "no-slip", clay, ""}};

@@ -44,6 +44,12 @@ namespace Talus
   public:
     explicit Material(const std::string &section);
 
+    /**
+     * Tells it the grid's spacing [length], before the first particle: a band of shear is as wide as some of them, by
+     * which laws that soften over a slip scale their strains. Throws EntryError where it is too coarse for them.
+     */
+    virtual void set_spacing(const double /* spacing */) {}
+
     /** Names of the state fields that each particle carries for this material; at most MaterialRange::max_states. */
     virtual std::vector<std::string> state_names() const { return {}; }
 

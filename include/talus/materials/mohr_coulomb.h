@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/materials/elastic_material.h>
+#include <talus/materials/softening_slip.h>
 
 #include <limits>
 
@@ -36,6 +37,8 @@ namespace Talus
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
 
+    void set_spacing(const double spacing) override;
+
     std::vector<EntryError> doubts() const override;
 
     bool bears_tension() const override { return cohesion > 0 && (tension_strength < 0 || tension_strength > 0); }
@@ -43,6 +46,8 @@ namespace Talus
   private:
     /** Throws EntryError if they are none of a soil. */
     void check_angles(const std::string &prefix, const double friction, const double dilatancy) const;
+
+    SofteningSlip softening_slip;
 
     double friction_angle = 30, dilatancy_angle = 0, cohesion = 0;                              // [degrees], [stress]
     double residual_friction_angle = -1, residual_dilatancy_angle = -1, residual_cohesion = -1; // < 0: as at the peak

@@ -2,6 +2,7 @@
 
 #include <talus/materials/elastic_material.h>
 #include <talus/materials/hardening.h>
+#include <talus/materials/softening_slip.h>
 
 #include <cmath>
 
@@ -13,7 +14,8 @@ namespace Talus
    * with the yield stress constant, growing linearly, or falling exponentially:
    * @f[ \sigma_Y = \sigma_0 , \qquad \sigma_0 + H \bar\varepsilon , \qquad
    *     \sigma_r + (\sigma_0 - \sigma_r) \exp(-\eta\bar\varepsilon) . @f]
-   * The entries can give bounds of |s| instead, which are sqrt(2/3) of these.
+   * `Softening slip` u_s gives the rate by the spacing, eta = sqrt(3) w h/u_s: the strength of a band falls by 1/e
+   * over it. The entries can give bounds of |s| instead, which are sqrt(2/3) of these.
    * Radial return of the elastic trial stress, Eq. (28): Simo & Hughes (1998), box 3.1.
    * State: equivalent plastic strain [1]. Throws nothing: any increment has a return, since
    * parse_parameters() refuses softening faster than the elastic unloading, 3 G.
@@ -29,6 +31,7 @@ namespace Talus
     void                     plastic_work_densities(const MaterialRange &range, double *densities) const override;
 
     void parse_parameters(dealii::ParameterHandler &prm) override;
+    void set_spacing(const double spacing) override;
 
   protected:
     /** Calls `body(law)` with the hardening law that was chosen. */
@@ -47,6 +50,8 @@ namespace Talus
   private:
     /** Yield stress in tension over the strength as the entries give it. */
     double in_tension() const { return norm == "deviator" ? std::sqrt(1.5) : 1.; }
+
+    SofteningSlip softening_slip;
 
     std::string hardening         = "perfect";
     std::string norm              = "von Mises";

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/particles/region.h>
+#include <talus/particles/filled_region.h>
 #include <talus/particles/shape.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ namespace Talus
   {
   public:
     /** Of a region that reads the same section. */
-    explicit LatticeShape(std::unique_ptr<Region<dim>> region);
+    explicit LatticeShape(std::unique_ptr<FilledRegion<dim>> region);
 
     void create(const std::array<double, dim> &h) override;
     void visit(const dealii::BoundingBox<dim> &box, const typename Shape<dim>::Visitor &visitor) const override;
@@ -79,7 +79,7 @@ namespace Talus
     /** Visits the points of the lattice from `begin` up to `end` on each axis. */
     void visit_range(const Index &begin, const Index &end, const typename Shape<dim>::Visitor &visitor) const;
 
-    std::unique_ptr<Region<dim>> region;
+    std::unique_ptr<FilledRegion<dim>> region;
 
     unsigned int        points_per_cell = 2;
     std::vector<double> offset          = std::vector<double>(dim, 0.);
@@ -114,11 +114,11 @@ namespace Talus
     static void add(const std::string &name, const std::string &help)
     {
       Registry<Shape<dim>>::get().add(name, help, [name](Parameters &parameters, const std::string &section) {
-        return std::make_unique<LatticeShape<dim>>(Registry<Region<dim>>::get().make(name, parameters, section));
+        return std::make_unique<LatticeShape<dim>>(Registry<FilledRegion<dim>>::get().make(name, parameters, section));
       });
     }
 
-    RegisterDimensions<Region, Kind> region;
+    RegisterDimensions<FilledRegion, Kind> region;
   };
 
   /** A number in [-1, 1) that depends on nothing but its arguments. */

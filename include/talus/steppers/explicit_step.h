@@ -39,7 +39,7 @@ namespace Talus
     double full_body_limit(const Model<dim> &model) const;
 
     void   move_nodes(Model<dim> &model, const double time, const double dt);
-    Report move_particles(Model<dim> &model, const double time, const double dt);
+    Report move_particles(Model<dim> &model, const Report &last, const double time, const double dt);
 
     double courant_number = 0, fixed_step_size = 0, mass_cutoff = 0;
     bool   is_musl = false;

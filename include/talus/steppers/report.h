@@ -3,6 +3,7 @@
 #include <talus/core/archive.h>
 #include <talus/core/reduction.h>
 
+#include <array>
 #include <string>
 
 namespace Talus
@@ -19,7 +20,9 @@ namespace Talus
     double most_particles   = 0; // that a rank has
     double mass             = 0; // [mass]
     double kinetic_energy   = 0; // [energy]
-    double body_force_power = 0; // sum m b . v [energy/time]
+    double body_force_power = 0; // over the ways that particles have gone in the step [energy/time]
+
+    std::array<double, 3> moment{}; // sum m x, from the middle of the grid [mass length]
 
     bool        has_failed = false; // a particle broke a limit of validity
     std::string failure, remedy;    // then: which did so where, and what to do
@@ -37,6 +40,8 @@ namespace Talus
       reduction.sum(mass);
       reduction.sum(kinetic_energy);
       reduction.sum(body_force_power);
+      for (double &component : moment)
+        reduction.sum(component);
     }
 
     void serialize(Archive &archive)
@@ -50,6 +55,9 @@ namespace Talus
       archive("mass", mass);
       archive("kinetic energy", kinetic_energy);
       archive("body force power", body_force_power);
+      archive("moment x", moment[0]);
+      archive("moment y", moment[1]);
+      archive("moment z", moment[2]);
     }
   };
 

@@ -24,8 +24,9 @@ namespace Talus
     /** Looks at the particles begin .. end - 1, after their relocate(). */
     void look_at(const unsigned int begin, const unsigned int end);
 
-    /** What has been seen, of all ranks, as the parts of the model know their numbers then. Collective. */
-    Report finish(const double displacement);
+    /** What has been seen, of all ranks, as the parts of the model know their numbers then, after the step that began
+     * with `before`. Collective. */
+    Report finish(const double displacement, const Report *before = nullptr);
 
   private:
     using Number = Simd<native_width>;
@@ -43,7 +44,7 @@ namespace Talus
     struct Sums
     {
       Number                         signal_speed, mass, kinetic_energy; // the greatest; sums
-      dealii::Tensor<1, dim, Number> momentum;
+      dealii::Tensor<1, dim, Number> moment;
     };
 
     /** Which limits the particles of a batch keep to, but for the grid. */
@@ -74,7 +75,7 @@ namespace Talus
     const std::vector<MaterialRange> *ranges = nullptr;
     double                            time = 0, dt = 0;
 
-    std::array<const double *, dim>                       x, v; // x: the place of the body force
+    std::array<const double *, dim>                       x, v, position; // x: the place of the body force
     std::array<const double *, dim * dim>                 F, grad_v;
     std::array<const double *, WorkingSet<dim>::n_stress> stress;
     const double                                         *mass;

@@ -16,7 +16,7 @@ namespace Talus
    * of regions that are made of others. It reads the section of what it belongs to.
    */
   template <int dim>
-  class Region : public dealii::ParameterAcceptor
+  class FilledRegion : public dealii::ParameterAcceptor
   {
   public:
     using Point = dealii::Point<dim>;

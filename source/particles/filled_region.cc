@@ -1,11 +1,11 @@
-#include <talus/particles/region.h>
+#include <talus/particles/filled_region.h>
 
 namespace Talus
 {
   using namespace dealii;
 
   template <int dim>
-  void Region<dim>::prepare()
+  void FilledRegion<dim>::prepare()
   {
     read();
     const auto corners = bounding_box().get_boundary_points();
@@ -14,7 +14,7 @@ namespace Talus
   }
 
   template <int dim>
-  bool Region<dim>::has(const Point &x) const
+  bool FilledRegion<dim>::has(const Point &x) const
   {
     for (unsigned int d = 0; d < dim; ++d)
       if (!is_curved(d) && !(x[d] >= lower[d] && x[d] < upper[d]))
@@ -23,11 +23,11 @@ namespace Talus
   }
 
   template <int dim>
-  bool Region<dim>::holds(const Point &lower, const Point &upper) const
+  bool FilledRegion<dim>::holds(const Point &lower, const Point &upper) const
   {
     return holds_on_lattice<dim>(lower, upper, 4, [&](const Point &x) { return contains(x); });
   }
 
-  template class Region<2>;
-  template class Region<3>;
+  template class FilledRegion<2>;
+  template class FilledRegion<3>;
 } // namespace Talus
