@@ -1,0 +1,155 @@
+#include <talus/simulation/element_control.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace Talus
+{
+  using namespace dealii;
+
+  const std::array<const char *, 6> component_names_of_stress{{"xx", "yy", "zz", "xy", "xz", "yz"}};
+
+  namespace
+  {
+    constexpr double       tolerance      = 1e-11; // of the stress
+    constexpr unsigned int max_iterations = 60;
+    // Beside the greatest entry of the Jacobian: what is softer than this counts as a stress that can not change.
+    constexpr double softest = 1e-6;
+
+    double largest(const Tensor<2, 3> &tensor)
+    {
+      double most = 0;
+      for (unsigned int c = 0; c < 9; ++c)
+        most = std::max(most, std::abs(tensor[c / 3][c % 3]));
+      return most;
+    }
+
+    double largest(const std::vector<double> &values)
+    {
+      double most = 0;
+      for (const double value : values)
+        most = std::max(most, std::abs(value));
+      return most;
+    }
+
+    double largest_stress(const ElementPoint &point)
+    {
+      return largest(std::vector<double>(point.stress.begin(), point.stress.end()));
+    }
+
+    /** The two places of a component in a tensor. */
+    void add(Tensor<2, 3> &tensor, const unsigned int component, const double value)
+    {
+      const auto ij = SymmetricTensor<2, 3>::unrolled_to_component_indices(component);
+      tensor[ij[0]][ij[1]] += value;
+      if (ij[0] != ij[1])
+        tensor[ij[1]][ij[0]] += value;
+    }
+  } // namespace
+
+  ElementControl::Trial ElementControl::attempt(const ElementPoint &start, const ElementStep &step,
+                                                const std::vector<double> &x) const
+  {
+    Trial        trial{start, std::vector<double>(x.size()), 0};
+    Tensor<2, 3> increment = step.driven;
+    for (unsigned int k = 0; k < x.size(); ++k)
+      add(increment, step.held[k], x[k]);
+    trial.point.advance(increment, step.dt);
+    double squares = 0;
+    for (unsigned int k = 0; k < x.size(); ++k)
+    {
+      trial.rest[k] = trial.point.stress[step.held[k]] - step.target[step.held[k]];
+      squares += trial.rest[k] * trial.rest[k];
+    }
+    trial.size = trial.point.is_sound() ? std::sqrt(squares) : std::numeric_limits<double>::infinity();
+    return trial;
+  }
+
+  std::vector<double> ElementControl::correction(const ElementPoint &start, const ElementStep &step,
+                                                 const std::vector<double> &x, const Trial &now,
+                                                 const double size) const
+  {
+    const unsigned int n = x.size();
+    const double       h = 1e-5 * size + 1e-9 * largest_stress(now.point) / start.stiffness();
+    FullMatrix<double> J(n, n);
+    double             greatest = 0;
+    for (unsigned int k = 0; k < n; ++k)
+    {
+      auto beside = x;
+      beside[k] += h;
+      const Trial other = attempt(start, step, beside);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        J(i, k)  = (other.rest[i] - now.rest[i]) / h;
+        greatest = std::max(greatest, std::abs(J(i, k)));
+      }
+    }
+    std::vector<double> change(n, 0.);
+    if (!(greatest > 0 && std::isfinite(greatest)))
+      return change;
+    FullMatrix<double> normal(n, n);
+    J.Tmmult(normal, J);
+    for (unsigned int k = 0; k < n; ++k)
+      normal(k, k) += softest * softest * greatest * greatest;
+    normal.gauss_jordan();
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          change[k] -= normal(k, i) * J(j, i) * now.rest[j];
+    return change;
+  }
+
+  bool ElementControl::search(const ElementPoint &start, const ElementStep &step, const std::vector<double> &change,
+                              std::vector<double> &x, Trial &now) const
+  {
+    double share = 1;
+    for (unsigned int halving = 0; halving < 12; ++halving, share /= 2)
+    {
+      auto next = x;
+      for (unsigned int k = 0; k < x.size(); ++k)
+        next[k] += share * change[k];
+      Trial trial = attempt(start, step, next);
+      if (trial.size < now.size)
+      {
+        x   = next;
+        now = trial;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::string ElementControl::advance(ElementPoint &point, const ElementStep &step)
+  {
+    std::vector<double> x = strains;
+    x.resize(step.held.size(), 0.);
+    Trial now = attempt(point, step, x);
+    if (std::isinf(now.size))
+      now = attempt(point, step, x = std::vector<double>(x.size(), 0.));
+    if (std::isinf(now.size))
+      return "it turns the point inside out, or the stress is no number";
+
+    const double modulus = point.stiffness();
+    const auto   bound   = [&] {
+      return tolerance * std::max(largest_stress(now.point), modulus * std::max(largest(step.driven), largest(x)));
+    };
+    for (unsigned int i = 0; i < max_iterations && now.size > bound(); ++i, ++n_iterations)
+    {
+      const double size = std::max({largest(step.driven), largest(x), now.size / modulus});
+      if (!search(point, step, correction(point, step, x, now, size), x, now))
+        break;
+    }
+    if (now.size > bound())
+    {
+      std::ostringstream text;
+      text << "no strain keeps the held stresses, of which " << now.size << " is left";
+      return text.str();
+    }
+    strains = x;
+    point   = now.point;
+    return "";
+  }
+} // namespace Talus
