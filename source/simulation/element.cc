@@ -165,9 +165,7 @@ namespace Talus
     {
       std::ostringstream text;
       text << "Step " << k << (stage.name.empty() ? "" : " of stage '" + stage.name + "'") << ", from "
-           << stage.amount_name() << " = " << amount << " to " << stage.amount(k) << ": " << problem
-           << ". Raise 'Steps'; if that does not help, the material has no strength left for this path, which then "
-              "ends before.";
+           << stage.amount_name() << " = " << amount << " to " << stage.amount(k) << ": " << problem;
       throw RunError(text.str());
     }
     amount = stage.amount(k);

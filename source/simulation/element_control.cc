@@ -122,34 +122,51 @@ namespace Talus
     return false;
   }
 
-  std::string ElementControl::advance(ElementPoint &point, const ElementStep &step)
+  bool ElementControl::converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x, Trial &now)
   {
-    std::vector<double> x = strains;
-    x.resize(step.held.size(), 0.);
-    Trial now = attempt(point, step, x);
-    if (std::isinf(now.size))
-      now = attempt(point, step, x = std::vector<double>(x.size(), 0.));
-    if (std::isinf(now.size))
-      return "it turns the point inside out, or the stress is no number";
-
-    const double modulus = point.stiffness();
+    const double modulus = start.stiffness();
     const auto   bound   = [&] {
       return tolerance * std::max(largest_stress(now.point), modulus * std::max(largest(step.driven), largest(x)));
     };
-    for (unsigned int i = 0; i < max_iterations && now.size > bound(); ++i, ++n_iterations)
+    now = attempt(start, step, x);
+    for (unsigned int i = 0; i < max_iterations && now.size > bound(); ++i)
     {
       const double size = std::max({largest(step.driven), largest(x), now.size / modulus});
-      if (!search(point, step, correction(point, step, x, now, size), x, now))
-        break;
+      if (std::isinf(now.size) || !search(start, step, correction(start, step, x, now, size), x, now))
+        return false;
     }
-    if (now.size > bound())
+    return now.size <= bound();
+  }
+
+  std::string ElementControl::advance(ElementPoint &point, const ElementStep &step)
+  {
+    const unsigned int n = step.held.size();
+    strains.resize(n, 0.);
+    auto  x      = strains;
+    Trial now    = attempt(point, step, x);
+    bool  is_met = converge(point, step, x, now);
+    // Stresses that differ a little flow on a face, far in strain from the edge beside it, where they can not differ.
+    double       left = now.size;
+    const double size = std::max(largest(step.driven), largest(strains));
+    for (const double far : {0., 1., -1., 3., -3., 10., -10.})
+      for (unsigned int k = 0; k < n && !is_met; ++k)
+      {
+        x.assign(n, 0.);
+        x[k]   = far * size;
+        is_met = converge(point, step, x, now);
+        left   = std::min(left, now.size);
+      }
+    if (is_met)
     {
-      std::ostringstream text;
-      text << "no strain keeps the held stresses, of which " << now.size << " is left";
-      return text.str();
+      strains = x;
+      point   = now.point;
+      return "";
     }
-    strains = x;
-    point   = now.point;
-    return "";
+    if (std::isinf(left))
+      return "it turns the point inside out, or the stress is no number. Raise 'Steps', or lower the strain.";
+    std::ostringstream text;
+    text << "no strain gives the stresses that are asked for, by " << left
+         << ". Raise 'Steps'; if that does not help, the material has no strength for them, and the path ends before.";
+    return text.str();
   }
 } // namespace Talus

@@ -29,7 +29,7 @@ namespace Talus
     add_parameter("Strain", turning_points,
                   "Values of the strain that are gone through, from 0 when the stage begins: logarithmic along z, "
                   "negative in compression; of 'simple shear' F_xy; of 'strain' the factor of the direction [1].",
-                  prm, Patterns::List(Patterns::Double(), 1));
+                  prm, Patterns::List(Patterns::Double(), 1, 10000));
     add_parameter("Strain rate", rate, "How fast the strain goes, for viscous laws and the column of times [1/time].",
                   prm, Patterns::Double());
     if (kind == "strain")

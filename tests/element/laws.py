@@ -1,7 +1,9 @@
 """Paths of every law but Mohr-Coulomb's, and what the driver itself does; for run.py."""
 import math
+import os
 
-from point import point
+from point import point, write
+from program import columns_of
 
 E, NU = 1e7, 0.3
 K, G = E / 3 / (1 - 2 * NU), E / 2 / (1 + NU)
@@ -146,3 +148,17 @@ def case_stages(runs):
     wanted = ((1 + sin) * held - 2e3 * math.cos(math.radians(30))) / (1 - sin)
     runs.check("loaded", s["stress zz"][-1] / wanted - 1, BOUND)
     runs.check("stages", abs(s["stage"][1000] - 1) + abs(s["stage"][1001] - 2), 0.5)
+    end_of_path(runs, sand)
+
+
+def end_of_path(runs, sand):
+    """A path that asks for more than the strength ends with its last step in the table."""
+    name = os.path.join(runs.work, "end")
+    write(name, sand, {"Path": "stress", "Confining pressure": 1e5, "Final stress": "-1e5, -1e5, -6e5, 0, 0, 0", "Steps": 50})
+    status, text = runs.start(["--element", name + ".prm"])
+    rows = columns_of(os.path.join(name, "element.csv"))
+    strength = 2 * (1e3 * math.cos(math.radians(30)) + 1e5 * 0.5) / 0.5
+    runs.check("exit status at the strength", status - 2, 0.5)
+    runs.check("steps until then", len(rows["step"]) - 1 - math.floor(strength / 1e4), 0.5)
+    runs.check("last q", rows["q"][-1] / (1e4 * math.floor(strength / 1e4)) - 1, BOUND)
+    runs.check("its step is named", 0 if f"Step {len(rows['step'])}, from share" in text else 1, 0.5)

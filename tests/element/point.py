@@ -16,17 +16,23 @@ def section(name, entries):
     return "\n".join(lines + ["end"])
 
 
-def point(runs, name, law, element):
-    """The table of a point by columns."""
-    directory = os.path.join(runs.work, name)
-    os.makedirs(runs.work, exist_ok=True)
-    with open(directory + ".prm", "w") as file:
+def write(name, law, element, interval=1):
+    """The file `name`.prm of a point, with its output in the directory `name`."""
+    os.makedirs(os.path.dirname(name), exist_ok=True)
+    output = {"Directory": name, "Overwrite": "true", "Statistics interval": interval}
+    with open(name + ".prm", "w") as file:
         file.write("\n".join([section("Materials", {"Names": "soil", "soil": law}), section("Element", element),
-                              section("Output", {"Directory": directory, "Overwrite": "true"})]))
-    status, text = runs.start(["--element", directory + ".prm"])
+                              section("Output", output)]))
+
+
+def point(runs, name, law, element, interval=1):
+    """The table of a point by columns, with a row after each so many steps."""
+    name = os.path.join(runs.work, name)
+    write(name, law, element, interval)
+    status, text = runs.start(["--element", name + ".prm"])
     if status != 0:
         sys.exit(f"FAIL {name}: exit status {status}\n{text}")
-    return columns_of(os.path.join(directory, "element.csv"))
+    return columns_of(os.path.join(name, "element.csv"))
 
 
 def surface(angle, c):

@@ -40,8 +40,6 @@ namespace Talus
     /** Forgets the strains of the last step: the next goes elsewhere. */
     void restart() { strains.clear(); }
 
-    unsigned int n_iterations = 0; // of all steps
-
   private:
     struct Trial
     {
@@ -59,6 +57,9 @@ namespace Talus
     /** Goes from x towards x + change until the rest is less; false where it does not get less. */
     bool search(const ElementPoint &start, const ElementStep &step, const std::vector<double> &change,
                 std::vector<double> &x, Trial &now) const;
+
+    /** Newton's method from x; whether the held stresses are met. */
+    bool converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x, Trial &now);
 
     std::vector<double> strains; // of the held components in the last step
   };
