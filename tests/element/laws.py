@@ -86,6 +86,12 @@ def case_finite(runs):
     s = point(runs, "shear", law("neo-Hookean"), {"Path": "simple shear", "Strain": 0.7, "Steps": 50})
     runs.check("neo-Hookean, simple shear", s["stress xy"][-1] / (G * 0.7) - 1, BOUND)
     runs.check("neo-Hookean, normal stress in it", s["stress xx"][-1] / (G * 0.49) - 1, BOUND)
+    s = point(runs, "order", law("neo-Hookean"), {
+        "Names": "stretch, slide", "stretch": {"Path": "oedometer", "Strain": 0.3, "Steps": 50},
+        "slide": {"Path": "strain", "Direction": "0,0,1, 0,0,0, 0,0,0", "Strain": 0.7, "Steps": 50}})
+    runs.check("neo-Hookean, sheared after a stretch", s["stress xz"][-1] / (G * 0.7 * math.exp(0.3)) - 1, BOUND)
+    runs.check("principal stresses", (s["principal stress 1"][-1] + s["principal stress 2"][-1] + s["principal stress 3"][-1])
+               / -3 / s["p"][-1] - 1, BOUND)
 
 
 def case_plastic(runs):
@@ -139,6 +145,10 @@ def case_stages(runs):
     s = point(runs, "uniaxial", law("linear elastic"), {"Path": "stress", "Final stress": "0, 0, 3e5, 0, 0, 0", "Steps": 100})
     runs.check("strain zz", s["strain zz"][-1] / (100 * math.log1p(3e3 / E)) - 1, BOUND)
     runs.check("strain xx", s["strain xx"][-1] / (100 * math.log1p(-NU * 3e3 / E)) - 1, BOUND)
+    s = point(runs, "pure_shear", law("linear elastic"), {"Path": "stress", "Final stress": "0, 0, 0, 3e5, 0, 0", "Steps": 100})
+    d = 3e3 / 2 / G
+    runs.check("strain xy without spin", s["strain xy"][-1] / (50 * (math.log1p(d) - math.log1p(-d))) - 1, BOUND)
+    runs.check("strain xx without spin", s["strain xx"][-1] / (50 * (math.log1p(d) + math.log1p(-d))) - 1, 1e-7)
     sand = law("Mohr-Coulomb", Friction_angle=30, Cohesion=1e3)
     s = point(runs, "stages", sand, {
         "Names": "squeeze, load", "squeeze": {"Path": "isotropic", "Strain": -0.002},
