@@ -185,7 +185,7 @@ foreach(case incline_2d incline_3d account damping energy bar_2d bar_3d pressure
 endforeach()
 
 # Single points of materials against closed forms; all ranks compute the same.
-foreach(case triaxial plane_strain shear apex run elastic finite plastic fluid stages)
+foreach(case triaxial plane_strain shear apex run elastic finite plastic wide fluid stages)
   talus_add_run(element.${case}.mpirun=1 1 ${CMAKE_CURRENT_SOURCE_DIR}/element/run.py $<TARGET_FILE:talus>
     ${work}/element/${case}.1 ${case} 1 ${MPIRUN})
 endforeach()

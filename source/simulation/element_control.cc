@@ -14,6 +14,7 @@ namespace Talus
 
   namespace
   {
+    constexpr double       largest_strain = 0.9;   // of held components in a step: 1 leaves nothing of a length
     constexpr double       tolerance      = 1e-11; // of the stress
     constexpr unsigned int max_iterations = 60;
     // Beside the greatest entry of the Jacobian: what is softer than this counts as a stress that can not change.
@@ -64,7 +65,8 @@ namespace Talus
       trial.rest[k] = trial.point.stress[step.held[k]] - step.target[step.held[k]];
       squares += trial.rest[k] * trial.rest[k];
     }
-    trial.size = trial.point.is_sound() ? std::sqrt(squares) : std::numeric_limits<double>::infinity();
+    trial.size = trial.point.is_sound() && largest(x) < largest_strain ? std::sqrt(squares) :
+                                                                         std::numeric_limits<double>::infinity();
     return trial;
   }
 
@@ -122,7 +124,8 @@ namespace Talus
     return false;
   }
 
-  bool ElementControl::converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x, Trial &now)
+  bool ElementControl::converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x,
+                                Trial &now) const
   {
     const double modulus = start.stiffness();
     const auto   bound   = [&] {
@@ -136,6 +139,26 @@ namespace Talus
         return false;
     }
     return now.size <= bound();
+  }
+
+  bool ElementControl::creep(const ElementPoint &start, const ElementStep &step, const unsigned int n_parts,
+                             std::vector<double> &x, Trial &now) const
+  {
+    x.assign(step.held.size(), 0.);
+    for (unsigned int part = 1; part <= n_parts; ++part)
+    {
+      const double share = static_cast<double>(part) / n_parts;
+      ElementStep  small = step;
+      small.driven *= share;
+      small.dt *= share;
+      for (const unsigned int c : step.held)
+        small.target[c] = start.stress[c] + share * (step.target[c] - start.stress[c]);
+      for (double &strain : x)
+        strain *= part > 1 ? part / (part - 1.) : 1.;
+      if (!converge(start, small, x, now))
+        return false;
+    }
+    return true;
   }
 
   std::string ElementControl::advance(ElementPoint &point, const ElementStep &step)
@@ -156,6 +179,9 @@ namespace Talus
         is_met = converge(point, step, x, now);
         left   = std::min(left, now.size);
       }
+    // At an apex no stress changes at all: it is not to be met on the way.
+    for (const unsigned int n_parts : {8, 64, 512})
+      is_met = is_met || creep(point, step, n_parts, x, now);
     if (is_met)
     {
       strains = x;

@@ -119,6 +119,25 @@ def case_plastic(runs):
             runs.check(f"Drucker-Prager {angle}, {psi}, {end}: lateral", s["stress xx"][-1] / -p - 1, BOUND)
 
 
+def case_wide(runs):
+    """
+    Steps so wide that the first guess lies at the apex, where no stress can change, or beyond it: the held stresses are met
+    all the same, there and back.
+    """
+    sand = {"Friction_angle": 35, "Dilatancy_angle": 10}
+    for name, soil, path, steps, p, strains in (
+            ("limit of tension", law("Mohr-Coulomb", Cohesion=1e4, Tension_strength=0, **sand), "triaxial", 10, 1e3, (-0.1, 0.1)),
+            ("limit of tension", law("Mohr-Coulomb", Cohesion=1e4, Tension_strength=0, **sand), "biaxial", 10, 1e3, (-0.1, 0.1)),
+            ("Drucker-Prager", law("Drucker-Prager", Cohesion=1e3, **sand), "triaxial", 100, 1e3, (-0.1, 0.1)),
+            ("Drucker-Prager", law("Drucker-Prager", Cohesion=1e3, **sand), "biaxial", 10, 1e5, (0.1, -0.1)),
+            ("dry sand", law("Drucker-Prager", Friction_angle=30), "biaxial", 10, 1e5, (0.1, -0.1)),
+            ("dry sand", law("Drucker-Prager", Friction_angle=30), "triaxial", 100, 1e3, (-0.1, 0.1))):
+        s = point(runs, "wide", {**soil, "Young's modulus": 2e7},
+                  {"Path": path, "Strain": f"{strains[0]}, {strains[1]}", "Steps": steps, "Confining pressure": p})
+        runs.check(f"{name}, {path}: {len(s['step']) - 1} steps", len(s["step"]) - 1 - 2 * steps, 0.5)
+        runs.check(f"{name}, {path}: held", max(abs(stress / p + 1) for stress in s["stress xx"]), BOUND)
+
+
 def case_fluid(runs):
     """Pressure by the equation of state, from the density that an initial pressure asks for; viscous stresses."""
     rho, c, mu, rate = 1000., 50., 3., 7.

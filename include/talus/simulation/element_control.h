@@ -59,7 +59,11 @@ namespace Talus
                 std::vector<double> &x, Trial &now) const;
 
     /** Newton's method from x; whether the held stresses are met. */
-    bool converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x, Trial &now);
+    bool converge(const ElementPoint &start, const ElementStep &step, std::vector<double> &x, Trial &now) const;
+
+    /** The same by growing parts of the step, each from the strains of the one before. */
+    bool creep(const ElementPoint &start, const ElementStep &step, const unsigned int n_parts, std::vector<double> &x,
+               Trial &now) const;
 
     std::vector<double> strains; // of the held components in the last step
   };
