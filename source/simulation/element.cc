@@ -62,9 +62,9 @@ namespace Talus
   void Element::build_stages(Parameters &parameters)
   {
     const std::string section = get_section_name();
-    const auto        names   = parameters.names(
-               section, "Names of the stages of the path, one after the other; each has a subsection of its name. Without any, "
-                                 "the entries of the only stage stand here.");
+    const std::string help = "Names of the stages of the path, one after the other; each has a subsection of its name. "
+                             "Without any, the entries of the only stage stand here.";
+    const auto        names = parameters.names(section, help);
     for (const auto &name : names)
       stages.push_back(std::make_unique<ElementStage>(parameters, section + "/" + name, name));
     if (names.empty())
@@ -120,6 +120,9 @@ namespace Talus
     double                      strain[3];
     for (unsigned int a = 0; a < 3; ++a)
     {
+      AssertThrow(b.value[a] > 0 && std::isfinite(b.value[a]),
+                  RunError("After step " + std::to_string(n_steps) +
+                           " the point is stretched by more than numbers can tell, beyond 1e8 to 1. Lower 'Strain'."));
       strain[a]            = 0.5 * std::log(b.value[a]);
       derived.principal[a] = stress.value[a];
     }

@@ -165,8 +165,8 @@ namespace Talus
   {
     const unsigned int n = step.held.size();
     strains.resize(n, 0.);
-    auto  x      = strains;
-    Trial now    = attempt(point, step, x);
+    auto  x = strains;
+    Trial now{point, {}, 0};
     bool  is_met = converge(point, step, x, now);
     // Stresses that differ a little flow on a face, far in strain from the edge beside it, where they can not differ.
     double       left = now.size;

@@ -106,6 +106,8 @@ CASES = {
                 r"Step \d+, from share = \S+ to \S+: no strain gives the stresses", "no strength for them", status=2),
         element("turned inside out", [(TRIAXIAL, STRAIN.format("0,0,0, 0,0,0, 0,0,1")), ("Strain = -0.01", "Strain = -30")],
                 "Step 1, from factor = 0 to -1.5: it turns the point inside out", "Raise 'Steps'", status=2),
+        element("sheared beyond numbers", [(TRIAXIAL, "  set Path = simple shear\n"), ("Strain = -0.01", "Strain = 1e12")],
+                r"After step \d+ the point is stretched by more than numbers can tell", "Lower 'Strain'", status=2),
         element("stage beyond strength",
                 [(TRIAXIAL, "  set Names = load, pull\n  subsection load\n    set Steps = 10\n  end\n  subsection pull\n"
                             "    set Path = stress\n    set Final stress = 1e6, 1e6, 1e6, 0, 0, 0\n    set Steps = 10\n  end\n"),
