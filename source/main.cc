@@ -1,6 +1,7 @@
 #include <talus/core/command_line.h>
 #include <talus/core/exceptions.h>
 #include <talus/core/parameters.h>
+#include <talus/simulation/element.h>
 #include <talus/simulation/list.h>
 #include <talus/simulation/resume.h>
 #include <talus/simulation/simulation.h>
@@ -18,6 +19,35 @@ namespace
 {
   std::string program() { return "talus " + version() + " (commit " + TALUS_COMMIT + ")"; }
 
+  bool is_root() { return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0; }
+
+  /** Runs and single points have files of their own. */
+  void check_kind(const Parameters &parameters, const CommandLine &command_line)
+  {
+    const std::string file = command_line.file_name;
+    AssertThrow(command_line.is_element || !parameters.has_section("Element"),
+                InputError(file +
+                           ": the section 'Element' is of a single point, not of a run. Start it with 'talus "
+                           "--element " +
+                           file + "', or remove the section."));
+    for (const char *section : {"Run", "Grid", "Bodies"})
+      AssertThrow(!command_line.is_element || !parameters.has_section(section),
+                  InputError(file + ": the section '" + section +
+                             "' is of a run, not of a single point. Leave out "
+                             "--element, or give a file with 'Materials', 'Element' and 'Output'; 'include' shares "
+                             "materials between files."));
+  }
+
+  void run_element(Parameters &parameters, const CommandLine &command_line)
+  {
+    Element element(parameters);
+    parameters.parse();
+    if (!command_line.prints_parameters)
+      element.run();
+    else if (is_root())
+      parameters.print(std::cout, /* with_help = */ true);
+  }
+
   template <int dim>
   void run(Parameters &parameters, const CommandLine &command_line, const Resume *resume)
   {
@@ -30,7 +60,7 @@ namespace
       simulation.go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"), origin);
     else if (!command_line.prints_parameters)
       simulation.run(origin);
-    else if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    else if (is_root())
       parameters.print(std::cout, /* with_help = */ true);
   }
 
@@ -41,9 +71,12 @@ namespace
       resume.emplace(command_line.directory, MPI_COMM_WORLD);
     Parameters parameters =
       resume ? resume->parameters(command_line.overrides) : Parameters(command_line.file_name, command_line.overrides);
+    check_kind(parameters, command_line);
     try
     {
-      if (parameters.value("", "Dimension", "2") == "2")
+      if (command_line.is_element)
+        run_element(parameters, command_line);
+      else if (parameters.value("", "Dimension", "2") == "2")
         run<2>(parameters, command_line, resume ? &*resume : nullptr);
       else
         run<3>(parameters, command_line, resume ? &*resume : nullptr);
@@ -60,12 +93,11 @@ int main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, /* max_num_threads = */ 1);
   return exit_status([&]() {
     const CommandLine command_line(argc, argv);
-    const bool        is_root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    if (command_line.wants_help && is_root)
+    if (command_line.wants_help && is_root())
       std::cout << CommandLine::help();
-    else if (command_line.wants_version && is_root)
+    else if (command_line.wants_version && is_root())
       std::cout << program() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
-    else if (command_line.wants_list && is_root)
+    else if (command_line.wants_list && is_root())
       list_registered(std::cout);
     else if (!command_line.file_name.empty() || !command_line.directory.empty())
       run_file(command_line);

@@ -56,11 +56,14 @@ def main():
     talus, root = sys.argv[1], pathlib.Path(sys.argv[2])
     faults, seen = without_page(talus, root), set()
     os.chdir(root)
-    for path in sorted(root.glob("prm/*.prm")):
+    for path in sorted([*root.glob("prm/*.prm"), *root.glob("prm/element/*.prm")]):
         text = path.read_text()
+        mode = ["--element"] if "subsection Element" in text else []
+        if path.parent.name == "element" and not mode:
+            continue  # included by others
         if path.name.endswith("_common.prm") or "prm/meshes/" in text:
             continue  # included by others; needs a mesh that is not in the repository
-        for name, value, text in entries(run(talus, "--parameters", str(path.relative_to(root)))):
+        for name, value, text in entries(run(talus, "--parameters", *mode, str(path.relative_to(root)))):
             key = (name.split("/")[-1], text)
             if key in seen:
                 continue

@@ -77,11 +77,14 @@ def draw(check, command, work):
                             ("film.gif", ["two", "--time", "all", "--field", "velocity_x"]),
                             ("three.png", ["three", "--field", "pressure"]),
                             ("cut.png", ["three", "--field", "pressure", "--cut", "z=0.9375"]),
-                            ("statistics.svg", ["two", "three", "--statistics", "kinetic energy, strain energy"])):
+                            ("statistics.svg", ["two", "three", "--statistics", "kinetic energy, strain energy"]),
+                            ("over.svg", ["two", "--statistics", "kinetic energy", "--over", "strain energy"]),
+                            ("element.svg", ["point", "--element", "q, p", "--over", "strain zz"])):
         status, text = run(command + arguments + ["--field", "pressure"] * (name == "all.pdf") + ["--output", name], work)
         check(name, status == 0 and os.path.getsize(os.path.join(work, name)) > 3000, text)
     for words, arguments in (("no field 'nope'. They have:", ["two", "--field", "nope"]), ("no 'nowhere", ["nowhere"]),
                              ("no column 'nope'. It has: time", ["two", "--statistics", "nope"]),
+                             ("no column 'nope'. It has: time", ["point", "--element", "q", "--over", "nope"]),
                              ("no particle lies at z=0.1", ["three", "--field", "pressure", "--cut", "z=0.1"]),
                              ("invalid plane value: 'w=1'", ["three", "--cut", "w=1"]),
                              ("invalid interval value: '1'", ["two", "--range", "1"]),
@@ -125,6 +128,10 @@ def main():
         status, text = run([talus, f"{name}.prm", "--set", f"Output/Directory = {name}"], work)
         if status:
             sys.exit(f"FAIL {name}.prm: exit status {status}\n{text}")
+    status, text = run([talus, "--element", os.path.join(root, "prm", "element", "triaxial.prm"), "--set",
+                        "Output/Directory = point"], work)
+    if status:
+        sys.exit(f"FAIL --element: exit status {status}\n{text}")
     sys.dont_write_bytecode = True
     sys.path.insert(0, os.path.join(root, "contrib", "lib"))
     import numpy as np

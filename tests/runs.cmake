@@ -17,7 +17,7 @@ set(work ${CMAKE_CURRENT_BINARY_DIR}/runs)
 set(shear ${PROJECT_SOURCE_DIR}/prm/shear.prm)
 
 # Exit status and message of wrong inputs.
-foreach(group command_line entries numbers functions bodies points surroundings meshes diverged
+foreach(group command_line element entries numbers functions bodies points surroundings meshes diverged
     run kernel grid materials more_bodies conditions results files directories checkpoints)
   # How several ranks end is the same for what is read alike.
   set(n_ranks 1)
@@ -50,7 +50,7 @@ talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:t
 talus_add_run(help 1 ${CMAKE_CURRENT_SOURCE_DIR}/help.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR})
 
 # What the pages print can be typed.
-foreach(page README doc/tour doc/gallery)
+foreach(page README doc/tour doc/gallery doc/element)
   string(REPLACE / . name ${page})
   talus_add_run(commands.${name} 2 ${CMAKE_CURRENT_SOURCE_DIR}/commands.py ${page}.md ${PROJECT_BINARY_DIR}
     ${work}/commands.${name} ${MPIRUN})
@@ -182,6 +182,16 @@ foreach(case incline_2d incline_3d account damping energy bar_2d bar_3d pressure
     talus_add_run(loads.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/loads/run.py
       $<TARGET_FILE:talus> ${work}/loads/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()
+endforeach()
+
+# Single points of materials against closed forms; all ranks compute the same.
+foreach(case triaxial plane_strain shear apex run elastic finite plastic wide fluid stages)
+  talus_add_run(element.${case}.mpirun=1 1 ${CMAKE_CURRENT_SOURCE_DIR}/element/run.py $<TARGET_FILE:talus>
+    ${work}/element/${case}.1 ${case} 1 ${MPIRUN})
+endforeach()
+foreach(case run stages)
+  talus_add_run(element.${case}.mpirun=2 2 ${CMAKE_CURRENT_SOURCE_DIR}/element/run.py $<TARGET_FILE:talus>
+    ${work}/element/${case}.2 ${case} 2 ${MPIRUN})
 endforeach()
 
 # Runs that are stopped and resumed.

@@ -140,9 +140,9 @@ def plot_columns(arguments, file, names, target):
         for name in names.split(","):
             values = outputs.column(columns, name, f"{directory}/{file}")
             label = name.strip() if len(arguments.directories) == 1 else f"{pathlib.Path(directory).name}: {name.strip()}"
-            axis.plot(columns["time"], values, label=label)
+            axis.plot(outputs.column(columns, arguments.over, f"{directory}/{file}"), values, label=label)
             found_units.append(units[name.strip().replace("_", " ")])
-    axis.set_xlabel("time [time]")
+    axis.set_xlabel(f"{arguments.over} [{units[arguments.over.strip().replace('_', ' ')]}]")
     axis.set_ylabel(", ".join(f"[{unit}]" for unit in dict.fromkeys(found_units)))
     axis.legend()
     axis.grid(alpha=0.3)
@@ -193,6 +193,9 @@ def parse_arguments():
     parser.add_argument("--colours", default="viridis", choices=sorted(matplotlib.colormaps), metavar="MAP", help="a colour map of matplotlib (%(default)s)")
     parser.add_argument("--statistics", metavar="COLUMNS", help="columns of statistics.csv over time, with commas")
     parser.add_argument("--probes", metavar="COLUMNS", help="columns of probes.csv over time, with commas")
+    parser.add_argument("--element", metavar="COLUMNS", help="columns of element.csv over time, with commas")
+    parser.add_argument("--over", default="time", metavar="COLUMN", help="with --statistics, --probes or --element, the column "
+                        "across (%(default)s)")
     parser.add_argument("--convergence", metavar="COLUMN", help="last value of this column of statistics.csv over the spacing of "
                         "each directory's grid")
     parser.add_argument("--output", help="what to write: .png, .pdf, .svg; with --time all also .gif, .mp4 (plot.png)")
@@ -218,6 +221,8 @@ def main():
         plot_columns(arguments, "statistics.csv", arguments.statistics, target)
     elif arguments.probes:
         plot_columns(arguments, "probes.csv", arguments.probes, target)
+    elif arguments.element:
+        plot_columns(arguments, "element.csv", arguments.element, target)
     elif arguments.convergence:
         plot_convergence(arguments, target)
     else:

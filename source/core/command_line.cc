@@ -41,6 +41,8 @@ namespace Talus
         wants_list = true;
       else if (word == "--parameters")
         prints_parameters = true;
+      else if (word == "--element")
+        is_element = true;
       else if (word == "--set")
       {
         AssertThrow(i + 1 < argc, InputError("--set needs \"Section/Entry = value\" after it."));
@@ -60,6 +62,8 @@ namespace Talus
         file_name = word;
       }
     }
+    AssertThrow(directory.empty() || !is_element,
+                InputError("--element has no checkpoints to go on from. Leave out --resume, and give a file."));
     AssertThrow(directory.empty() || (file_name.empty() && !prints_parameters),
                 InputError("--resume takes the parameters from the checkpoint. Leave out the parameter file and "
                            "--parameters; --set may change some entries."));
@@ -73,7 +77,8 @@ namespace Talus
            "\n"
            "  talus FILE.prm [--set \"Section/Entry = value\"]...   run\n"
            "  talus --resume DIRECTORY [--set ...]...             go on with a run from its last checkpoint\n"
-           "  talus --parameters FILE.prm                         print all entries of the chosen objects, with help\n"
+           "  talus --element FILE.prm [--set ...]...             take a single point of a material along a path\n"
+           "  talus --parameters [--element] FILE.prm             print all entries of the chosen objects, with help\n"
            "  talus --list                                        print all kernels, transfers, materials, ...\n"
            "  talus --help | --version\n"
            "\n"

@@ -18,6 +18,7 @@ sys.path[:0] = [os.path.dirname(HERE), os.path.join(os.path.dirname(HERE), "erro
 import checkpoint  # noqa: E402
 import files  # noqa: E402
 from copies import Copies  # noqa: E402
+from elements import POINT  # noqa: E402
 from mutations import mutate_bytes, mutate_lines, mutate_table  # noqa: E402
 from seeds import SEEDS  # noqa: E402
 
@@ -61,7 +62,7 @@ class Cases:
         """What is wrong, and what was done."""
         dice = random.Random(f"{self.seed}.{number}")
         directory = self.directory_of(f"case {number}")
-        kind = dice.choice(["entries"] * 8 + ["bytes"] * 2 + ["files"] * 5 + ["checkpoint"] * 3 + ["arguments"])
+        kind = dice.choice(["entries"] * 8 + ["bytes"] * 2 + ["files"] * 5 + ["checkpoint"] * 3 + ["arguments", "element"])
         name, arguments = getattr(self, kind)(dice, directory)
         status, out, err = self.program.run(arguments, directory, SECONDS, GRACE)
         return problems_of(status, out, err, directory), f"{kind} of {name}: {' '.join(arguments)[:300]}", status, err, directory
@@ -111,6 +112,13 @@ class Cases:
         elif checkpoint.h5py:
             checkpoint.mutate(dice, path)
         return name, ["--resume", "output", "--set", f"Run/Number of steps = {STEPS + 1}"]
+
+    def element(self, dice, directory):
+        text = POINT
+        for _ in range(dice.choice([1, 1, 2, 4])):
+            text = mutate_lines(dice, text)
+        write(directory, "case.prm", text)
+        return "a point", ["--element", "case.prm", "--set", "Element/Steps = 20", "--set", "Output/Directory = output"]
 
     def arguments(self, dice, directory):
         name, text = self.prepare(dice, directory, list(SEEDS))

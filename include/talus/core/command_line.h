@@ -18,6 +18,7 @@ namespace Talus
     std::string              directory; // of the run that is to go on
     std::vector<std::string> overrides;
     bool                     wants_help = false, wants_version = false, wants_list = false, prints_parameters = false;
+    bool                     is_element = false; // the file is of a single point
   };
 
   std::string version();
