@@ -56,6 +56,9 @@ namespace Talus
     add_parameter("Confining pressure", pressure,
                   "The same as an 'Initial stress' of -p, -p, -p, 0, 0, 0; compression positive [stress].", prm,
                   Patterns::Double());
+    add_parameter("Spacing", spacing,
+                  "Of the grid in which the law shall believe where it softens over a slip [length].", prm,
+                  Patterns::Double());
     build_stages(parameters);
   }
 
@@ -73,6 +76,8 @@ namespace Talus
 
   void Element::parse_parameters(ParameterHandler &)
   {
+    if (!(spacing > 0))
+      throw EntryError(get_section_name(), "Spacing", "it must be positive.");
     const bool has_stress = std::any_of(initial_stress.begin(), initial_stress.end(), [](double s) { return s != 0; });
     if (pressure != 0 && has_stress)
       throw EntryError(get_section_name(), "Confining pressure", "'Initial stress' says it too. Give one of them.");
@@ -86,6 +91,7 @@ namespace Talus
 
   ElementPoint Element::start() const
   {
+    material->set_spacing(spacing);
     std::array<double, 6> stress;
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
     const std::string entry = pressure != 0 ? "Confining pressure" : "Initial stress";

@@ -115,7 +115,7 @@ void energy_account()
                                             {"mesh", "UMLS", "", "FLIP", "slip", rubber, ""},
                                             {"mesh", "UMLS", "", "APIC", "no-slip", rubber, ""},
                                             {"mesh", "UMLS", "mirrors", "FLIP", "no-slip", rubber, ""},
-                                            {"mesh", "UMLS", "mirrors", "FLIP", "slip", clay, set("F-bar", "true")},
+                                            {"mesh", "UMLS", "mirrors", "FLIP", "slip", clay, ""},
                                             {"box", spline, "mirror", "FLIP", "slip", rubber, ""},
                                             {"box", spline, "ghost nodes", "TPIC", "slip", clay, set("F-bar", "true")},
                                             {"mesh", "UMLS", "", "APIC", "no-slip", clay, set("F-bar", "true")},

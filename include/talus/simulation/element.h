@@ -73,6 +73,7 @@ namespace Talus
     Target                                     target;
     std::vector<double>                        initial_stress = std::vector<double>(6, 0.); // [stress]
     double                                     pressure       = 0;                          // [stress]
+    double                                     spacing        = 1;                          // [length]
 
     std::unique_ptr<ElementPoint> point;
     ElementControl                control;
