@@ -33,7 +33,7 @@ namespace Talus
     void check_spacing(const std::string &section, const double spacing, const double drop, const double G) const;
 
   private:
-    double slip  = 0; // [length]
-    double width = 2; // [1]
+    double slip  = 0;   // [length]
+    double width = 2.5; // [1]
   };
 } // namespace Talus
