@@ -157,7 +157,7 @@ CASES = {
         Case("points beyond numbers", [(BOX, POINTS)], ["points.txt:1: ", "'1e999' is too large"],
              files={"points.txt": "0.5 0.5 1e999\n"}),
         Case("columns in another order", [(BOX, POINTS)], ["points.txt:1: ", "Put them into this order"],
-             files={"points.txt": "volume x y\n0.01 0.5 0.5\n"}),
+             files={"points.txt": "V x y\n0.01 0.5 0.5\n"}),
         Case("a directory as outline", [OUTLINE], ["case.prm:26: ", "'File'", "it is a directory"], files={"outline.txt/a": ""}),
         Case("an empty outline", [OUTLINE], ["case.prm:26: ", "outline.txt"], files={"outline.txt": ""}),
         Case("a binary outline", [OUTLINE], ["case.prm:26: ", "outline.txt"], files={"outline.txt": BINARY}),
