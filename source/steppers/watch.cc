@@ -47,12 +47,13 @@ namespace Talus
     const WorkingSet<dim> &particles = model.particles;
     x = particles.template components<dim>(model.acceleration.is_of_initial_position() ? particles.initial_position :
                                                                                          particles.position);
-    position = particles.template components<dim>(particles.position);
-    v        = particles.template components<dim>(particles.velocity);
-    F        = particles.template components<dim * dim>(particles.F);
-    grad_v   = particles.template components<dim * dim>(particles.grad_v);
-    stress   = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
-    mass     = particles.component(particles.mass, 0);
+    position       = particles.template components<dim>(particles.position);
+    start_position = particles.template components<dim>(particles.initial_position);
+    v              = particles.template components<dim>(particles.velocity);
+    F              = particles.template components<dim * dim>(particles.F);
+    grad_v         = particles.template components<dim * dim>(particles.grad_v);
+    stress         = particles.template components<WorkingSet<dim>::n_stress>(particles.stress);
+    mass           = particles.component(particles.mass, 0);
 
     b                 = model.acceleration.uniform_value(time);
     sums.signal_speed = sums.mass = sums.kinetic_energy = 0.;
@@ -93,9 +94,8 @@ namespace Talus
   void Watch<dim>::add_up(const unsigned int begin, const unsigned int end, const double *speeds,
                           const double largest_volume_ratio)
   {
-    Sums       here      = sums; // in registers
-    const auto middle    = 0.5 * (model.grid.lower + Tensor<1, dim>(model.grid.upper));
-    auto       is_broken = Number(1.) < Number(0.);
+    Sums here      = sums; // in registers
+    auto is_broken = Number(1.) < Number(0.);
     for_each_batch(begin, end, [&](const auto batch) {
       const auto   v_p = load_vector<dim>(batch, v);
       const Number m = batch.load(mass), squares = v_p.norm_square(), counted_mass = batch.used_lanes(m);
@@ -103,7 +103,7 @@ namespace Talus
       here.mass += counted_mass;
       here.kinetic_energy += 0.5 * counted_mass * squares;
       for (unsigned int d = 0; d < dim; ++d)
-        here.moment[d] += counted_mass * (batch.load(position[d]) - middle[d]);
+        here.moment[d] += counted_mass * (batch.load(position[d]) - batch.load(start_position[d]));
       is_broken = is_broken | !limits(batch, squares, largest_volume_ratio).are_kept();
     });
     sums = here;

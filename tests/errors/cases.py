@@ -270,9 +270,5 @@ CASES = {
                      ("set Boundaries = lower y", "set Boundaries = upper x"), ("= 0.01", "= 0.1")],
              [r"Particle \d+ left the grid, at \(2[.\d]*, 0[.\d]*\) in step \d+, t = ", "A condition acts on the nodes there",
               "'No-slip mirrors' or 'Slip mirrors' of section 'Grid'", "'Held boundaries'"], 2, ["case.prm"] + EACH_STEP, output="output"),
-        Case("particle passes a named face of a box", [("set Velocity = 1; 0", "set Velocity = 100; 0"),
-                                                      ("set Boundary ids = 2", "set Boundaries = upper x\n    set End time = 1e-3")],
-             [r"Particle \d+ left the grid, at \(2[.\d]*, 0[.\d]*\) in step", "The face x[+] has a condition, but not everywhere, or not now"],
-             2, ["case.prm"] + EACH_STEP, output="output"),
     ],
 }

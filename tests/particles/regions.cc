@@ -250,7 +250,8 @@ void wrong_regions()
   wrong("formula of t", set("Where", "x < t"), "leave out t");
   wrong("two formulas", set("Where", "x < 1; y < 1"), "join several with &&");
   wrong("no formula", set("Where", "x <"), "cannot understand");
-  wrong("no value", set("Where", "sqrt(x - 9) > 0 ? 1 : 1 / (x - x)"), "no finite value");
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1) // a program ends all ranks when one has an error
+    wrong("no value", set("Where", "sqrt(x - 9) > 0 ? 1 : 1 / (x - x)"), "no finite value");
   wrong("nowhere", set("Where", "x > 9"), "empty");
 }
 template void joined_regions<2>();

@@ -65,8 +65,8 @@ void sound_state()
     for (unsigned int p = 0; p < particles.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         before.moment[d] += particles.component(particles.mass, 0)[p] *
-                            (setup.position(p)[d] - 1e-3 * particles.component(particles.velocity, d)[p] -
-                             0.5 * (setup.grid.lower[d] + setup.grid.upper[d]));
+                            (setup.position(p)[d] - particles.component(particles.initial_position, d)[p] -
+                             1e-3 * particles.component(particles.velocity, d)[p]);
     for (double &component : before.moment)
       component = sum(component);
     const Report report = look(setup, /* dt = */ 1e-3, &before);

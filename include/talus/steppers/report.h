@@ -22,7 +22,7 @@ namespace Talus
     double kinetic_energy   = 0; // [energy]
     double body_force_power = 0; // over the ways that particles have gone in the step [energy/time]
 
-    std::array<double, 3> moment{}; // sum m x, from the middle of the grid [mass length]
+    std::array<double, 3> moment{}; // sum m (x - X), of the ways from the start [mass length]
 
     bool        has_failed = false; // a particle broke a limit of validity
     std::string failure, remedy;    // then: which did so where, and what to do

@@ -75,7 +75,7 @@ namespace Talus
     const std::vector<MaterialRange> *ranges = nullptr;
     double                            time = 0, dt = 0;
 
-    std::array<const double *, dim>                       x, v, position; // x: the place of the body force
+    std::array<const double *, dim>                       x, v, position, start_position; // x: where the body force is
     std::array<const double *, dim * dim>                 F, grad_v;
     std::array<const double *, WorkingSet<dim>::n_stress> stress;
     const double                                         *mass;
