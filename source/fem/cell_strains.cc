@@ -4,11 +4,6 @@ namespace Talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    const FEValuesExtractors::Vector u(0);
-  }
-
   template <int dim>
   CellStrains<dim>::CellStrains(const Mapping<dim> &mapping, const FiniteElement<dim> &fe,
                                 const Quadrature<dim> &quadrature, const bool is_projected) :
@@ -23,6 +18,7 @@ namespace Talus
   template <int dim>
   void CellStrains<dim>::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
   {
+    const FEValuesExtractors::Vector u(0);
     fe_values.reinit(cell);
     for (unsigned int q = 0; q < n_points; ++q)
       for (unsigned int i = 0; i < n_dofs; ++i)

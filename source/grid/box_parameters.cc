@@ -12,7 +12,7 @@ namespace Talus
 
   namespace
   {
-    std::string to_text(const double number)
+    std::string number_text(const double number)
     {
       std::ostringstream text;
       text << std::setprecision(3) << number;
@@ -79,7 +79,7 @@ namespace Talus
       }
       if (!(count <= most))
         throw EntryError(section, spacings.empty() ? "Cells" : "Spacing",
-                         "the box is " + to_text(count) + " cells long in direction " + std::string(1, "xyz"[d]) +
+                         "the box is " + number_text(count) + " cells long in direction " + std::string(1, "xyz"[d]) +
                            ", too many to be numbered. " + coarser);
       lattice.n_cells[d]   = static_cast<int>(count);
       lattice.origin[d]    = lower[d];
@@ -129,14 +129,14 @@ namespace Talus
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     this->remarks.clear();
     const double wanted = bytes_per_cell * std::max(n_cells, n_coarse * n_ranks), has = physical_memory(communicator);
-    const std::string takes = "the grid's " + to_text(n_cells) + " cells take " + to_text(wanted / 1e9) +
-                              " GB at least, and there are " + to_text(has / 1e9) + " GB of memory. ";
+    const std::string takes = "the grid's " + number_text(n_cells) + " cells take " + number_text(wanted / 1e9) +
+                              " GB at least, and there are " + number_text(has / 1e9) + " GB of memory. ";
     const std::string entry = spacings.empty() ? "Cells" : "Spacing";
     if (wanted > has)
       throw EntryError(this->get_section_name(), entry, takes + coarser);
     if (n_nodes > std::numeric_limits<types::global_dof_index>::max())
       throw EntryError(this->get_section_name(), entry,
-                       "the grid has " + to_text(n_nodes) +
+                       "the grid has " + number_text(n_nodes) +
                          " nodes, more than this deal.II can number. Use one with 64-bit indices. " + coarser);
     if (wanted > has / 2)
       this->remarks.emplace_back(this->get_section_name(), entry, takes + coarser);
@@ -146,7 +146,7 @@ namespace Talus
       for (const int count : lattice.n_cells)
         better += " " + std::to_string((count + 8) / 16 * 16);
       this->remarks.emplace_back(this->get_section_name(), entry,
-                                 "every rank stores a coarse mesh of " + to_text(n_coarse) +
+                                 "every rank stores a coarse mesh of " + number_text(n_coarse) +
                                    " cells. Numbers of cells with a large common power of two avoid that, for example" +
                                    better + ".");
     }

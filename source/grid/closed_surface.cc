@@ -66,7 +66,7 @@ namespace Talus
     if constexpr (dim == 2)
       check_crossings(name);
 
-    std::vector<BoundingBox<dim - 1>> boxes(faces.size());
+    std::vector<GrowingBox<dim - 1>> boxes(faces.size());
     for (unsigned int f = 0; f < faces.size(); ++f)
       for (const unsigned int v : faces[f])
       {

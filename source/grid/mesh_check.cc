@@ -181,8 +181,8 @@ namespace Talus
           for (const unsigned int v : faces[i].vertices)
             is_outer[v] = 1;
         }
-      std::vector<unsigned int>     nodes;
-      std::vector<BoundingBox<dim>> places;
+      std::vector<unsigned int>    nodes;
+      std::vector<GrowingBox<dim>> places;
       for (unsigned int v = 0; v < is_outer.size(); ++v)
         if (is_outer[v])
         {
@@ -194,10 +194,10 @@ namespace Talus
 
       for (const Face *face : outer)
       {
-        const auto       gradient = dual(edges<dim>(input.positions, input.cells[face->cell]));
-        const auto      &corners  = input.cells[face->cell];
-        const double     margin   = smallest_share * longest_edge(face->cell);
-        BoundingBox<dim> box;
+        const auto      gradient = dual(edges<dim>(input.positions, input.cells[face->cell]));
+        const auto     &corners  = input.cells[face->cell];
+        const double    margin   = smallest_share * longest_edge(face->cell);
+        GrowingBox<dim> box;
         for (const unsigned int v : face->vertices)
           box.add(input.positions[v]);
         for (unsigned int d = 0; d < dim; ++d)

@@ -38,8 +38,8 @@ namespace Talus
             part[*i] = first;
           return;
         }
-        BoundingBox<dim> box;
-        double           total = 0;
+        GrowingBox<dim> box;
+        double          total = 0;
         for (auto i = begin; i != end; ++i)
         {
           box.add(centres[*i]);
@@ -143,7 +143,7 @@ namespace Talus
     find_owners();
     finder = std::make_unique<CellFinder<dim>>(mesh);
 
-    BoundingBox<dim> box;
+    GrowingBox<dim> box;
     for (unsigned int c = 0; c < n_owned_cells; ++c)
       for (const unsigned int v : mesh.nodes[c])
         box.add(mesh.position[v]);

@@ -5,9 +5,9 @@ namespace Talus
   namespace
   {
     template <int dim>
-    std::vector<BoundingBox<dim>> boxes(const Mesh<dim> &mesh)
+    std::vector<GrowingBox<dim>> boxes(const Mesh<dim> &mesh)
     {
-      std::vector<BoundingBox<dim>> boxes(mesh.n_cells());
+      std::vector<GrowingBox<dim>> boxes(mesh.n_cells());
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         for (const unsigned int v : mesh.nodes[c])
           boxes[c].add(mesh.position[v]);

@@ -25,7 +25,7 @@ namespace Talus
       {
         this->reach = reach;
         surface.emplace(make());
-        std::vector<BoundingBox<dim>> boxes(surface->faces.size());
+        std::vector<GrowingBox<dim>> boxes(surface->faces.size());
         for (unsigned int f = 0; f < boxes.size(); ++f)
           for (const unsigned int v : surface->faces[f])
             for (const double side : {-reach, reach})

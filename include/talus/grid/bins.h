@@ -10,7 +10,7 @@ namespace Talus
 {
   /** A box with its faces along the axes, grown by what it shall hold. */
   template <int dim>
-  struct BoundingBox
+  struct GrowingBox
   {
     using Vector = std::array<double, dim>;
 
@@ -38,9 +38,9 @@ namespace Talus
   public:
     using Vector = std::array<double, dim>;
 
-    explicit Bins(const std::vector<BoundingBox<dim>> &boxes)
+    explicit Bins(const std::vector<GrowingBox<dim>> &boxes)
     {
-      BoundingBox<dim> all;
+      GrowingBox<dim> all;
       for (const auto &box : boxes)
       {
         all.add(box.lower);

@@ -81,6 +81,6 @@ namespace Talus
 
     const MPI_Comm                   communicator;
     std::unique_ptr<CellFinder<dim>> finder;
-    std::vector<BoundingBox<dim>>    boxes; // of each rank's own cells
+    std::vector<GrowingBox<dim>>     boxes; // of each rank's own cells
   };
 } // namespace Talus
