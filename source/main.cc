@@ -4,13 +4,17 @@
 #include <talus/simulation/element.h>
 #include <talus/simulation/list.h>
 #include <talus/simulation/resume.h>
+#include <talus/simulation/safety_search.h>
 #include <talus/simulation/simulation.h>
+#include <talus/simulation/stages.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <commit.h>
 
+#include <algorithm>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 using namespace Talus;
@@ -48,20 +52,74 @@ namespace
       parameters.print(std::cout, /* with_help = */ true);
   }
 
+  /** Runs a stage, or what the file has if that has none; the directory of its output if another one follows. */
   template <int dim>
-  void run(Parameters &parameters, const CommandLine &command_line, const Resume *resume)
+  std::string run(Parameters &parameters, const CommandLine &command_line, const Resume *resume,
+                  const unsigned int stage)
   {
-    References<dim>::allow_idle_entries(parameters);
-    parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
-    Simulation<dim> simulation(parameters, MPI_COMM_WORLD);
-    parameters.parse();
-    const std::string origin = program() + ", " + command_line.text;
+    const auto        simulation = Simulation<dim>::make(parameters, MPI_COMM_WORLD, stage);
+    const std::string origin     = program() + ", " + command_line.text;
     if (resume != nullptr)
-      simulation.go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"), origin);
+      simulation->go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"), origin);
     else if (!command_line.prints_parameters)
-      simulation.run(origin);
-    else if (is_root())
-      parameters.print(std::cout, /* with_help = */ true);
+      simulation->run(origin);
+    else
+    {
+      if (is_root())
+        parameters.print(std::cout, /* with_help = */ true);
+      return "";
+    }
+    return simulation->is_to_go_on() ? simulation->directory() : "";
+  }
+
+  /** `work` of the parameters of a stage; what is wrong with an entry is said with its place in the file. */
+  template <class Work>
+  void with_parameters(Parameters parameters, const Work &work)
+  {
+    try
+    {
+      work(parameters);
+    }
+    catch (const EntryError &error)
+    {
+      throw InputError(parameters.locate(error));
+    }
+  }
+
+  /** A stage that is a search; the directory of the run's output, from where the next one goes on. */
+  template <int dim>
+  std::string search(const Stages &stages, const CommandLine &command_line, const Resume &begin,
+                     const unsigned int stage)
+  {
+    const std::string directory = begin.directory;
+    SafetySearch<dim> search(stages, stage, begin, program() + ", " + command_line.text, MPI_COMM_WORLD);
+    return search.run() ? directory : "";
+  }
+
+  template <int dim>
+  void run_stages(const Parameters &file, const CommandLine &command_line, std::optional<Resume> &resume)
+  {
+    const Stages       stages(file);
+    const unsigned int first = resume ? resume->head.stage : 0, n = std::max(stages.size(), 1u);
+    AssertThrow(first < n, InputError("the checkpoint is of stage " + std::to_string(first + 1) + ", and the run has " +
+                                      std::to_string(n) + ". It was changed."));
+    // What is wrong in a later stage is said before the first one runs.
+    for (unsigned int stage = first + 1; stage < n; ++stage)
+      with_parameters(stages.parameters(stage),
+                      [&](Parameters &parameters) { Simulation<dim>::make(parameters, MPI_COMM_WORLD, stage); });
+    std::string directory;
+    for (unsigned int stage = first; stage == first || (stage < n && !directory.empty()); ++stage)
+    {
+      if (stage > first)
+        resume.emplace(directory, MPI_COMM_WORLD);
+      if (stages.searches(stage))
+        directory = search<dim>(stages, command_line, *resume, stage);
+      else
+        with_parameters(stages.parameters(stage), [&](Parameters &parameters) {
+          directory = run<dim>(parameters, command_line, resume ? &*resume : nullptr, stage);
+        });
+      resume.reset();
+    }
   }
 
   void run_file(const CommandLine &command_line)
@@ -72,19 +130,12 @@ namespace
     Parameters parameters =
       resume ? resume->parameters(command_line.overrides) : Parameters(command_line.file_name, command_line.overrides);
     check_kind(parameters, command_line);
-    try
-    {
-      if (command_line.is_element)
-        run_element(parameters, command_line);
-      else if (parameters.value("", "Dimension", "2") == "2")
-        run<2>(parameters, command_line, resume ? &*resume : nullptr);
-      else
-        run<3>(parameters, command_line, resume ? &*resume : nullptr);
-    }
-    catch (const EntryError &error)
-    {
-      throw InputError(parameters.locate(error));
-    }
+    if (command_line.is_element)
+      with_parameters(parameters, [&](Parameters &element) { run_element(element, command_line); });
+    else if (parameters.value("", "Dimension", "2") == "2")
+      run_stages<2>(parameters, command_line, resume);
+    else
+      run_stages<3>(parameters, command_line, resume);
   }
 } // namespace
 

@@ -209,6 +209,13 @@ foreach(ranks 2 4)
   talus_add_run(checkpoint.balance.mpirun=${ranks} 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
     $<TARGET_FILE:talus> ${work}/checkpoint/balance.${ranks} balance ${ranks} ${MPIRUN})
 endforeach()
+# Parts of a run with parameters of their own.
+foreach(ranks 1 2)
+  foreach(case column nothing resumed safety wrong)
+    talus_add_run(stages.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/stages/run.py
+      $<TARGET_FILE:talus> ${work}/stages/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
 talus_add_run(checkpoint.killed_often 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
   $<TARGET_FILE:talus> ${work}/checkpoint/killed_often killed_often 2 ${MPIRUN})
 set_tests_properties(checkpoint.killed_often PROPERTIES LABELS long TIMEOUT 1800)

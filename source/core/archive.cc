@@ -7,6 +7,8 @@ namespace Talus
     if (reads)
     {
       const auto found = all.find(prefix + name);
+      if (lacks && found == all.end())
+        return;
       AssertThrow(found != all.end(),
                   InputError("the checkpoint has no '" + prefix + name +
                              "'. It was written by another version of Talus; go on with that one."));

@@ -100,6 +100,8 @@ namespace Talus
 
   std::string Parameters::settings_text() const
   {
+    if (!text_of_all.empty())
+      return text_of_all;
     std::ostringstream       text;
     std::vector<std::string> open;
     for (const auto &[key, setting] : settings)
@@ -119,6 +121,41 @@ namespace Talus
     for (; !open.empty(); open.pop_back())
       text << "end\n";
     return text.str();
+  }
+
+  std::vector<std::string> Parameters::changed_by(const std::string &stage) const
+  {
+    const std::string        start = parameter_key("/Stages/" + stage, "");
+    std::vector<std::string> changed;
+    for (auto setting = settings.lower_bound(start);
+         setting != settings.end() && setting->first.compare(0, start.size(), start) == 0; ++setting)
+      if (const std::string key = setting->first.substr(start.size()); key.find('/') != std::string::npos)
+        changed.push_back(key);
+    return changed;
+  }
+
+  Parameters Parameters::after_changes(const std::vector<std::string> &stages, const unsigned int n) const
+  {
+    ParameterAcceptor::prm.clear();
+    Parameters result  = *this;
+    result.text_of_all = settings_text();
+    // What any stage lists, whether the run has it or not, may be described outside of stages.
+    for (const auto &[key, setting] : settings)
+      if (const auto path = split(key); path.size() > 3 && path.front() == "Stages" && path.back() == "Names")
+      {
+        const std::string section = join({path.begin() + 2, path.end() - 1});
+        std::string      &others  = result.other_names[section];
+        others += (others.empty() ? "" : ", ") + value(section, "Names", "") + ", " + setting.value;
+      }
+    for (unsigned int s = 0; s < stages.size(); ++s)
+      for (const auto &key : changed_by(stages[s]))
+      {
+        const std::string of_stage = parameter_key("/Stages/" + stages[s], key);
+        result.settings.erase(of_stage);
+        if (s < n)
+          result.settings[key] = settings.at(of_stage);
+      }
+    return result;
   }
 
   void Parameters::scan(std::istream &in, const std::string &file_name, std::vector<std::string> &path)
@@ -191,7 +228,7 @@ namespace Talus
     const std::string key   = join(split(text.substr(0, equal)));
     const auto        known = settings.find(key);
     if (known != settings.end() && leaf(key) == "Names")
-      names_of_file.emplace(parent(key), known->second.value);
+      other_names.emplace(parent(key), known->second.value);
     settings[key] = {Utilities::trim(text.substr(equal + 1)), "--set \"" + shortened(text) + "\""};
   }
 } // namespace Talus

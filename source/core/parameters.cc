@@ -35,9 +35,9 @@ namespace Talus
 
   bool Parameters::is_left_out(const std::string &key) const
   {
-    for (const auto &[section, names] : names_of_file)
+    for (const auto &[section, names] : other_names)
     {
-      const auto now = Utilities::split_string_list(settings.at(section + "/Names").value);
+      const auto now = Utilities::split_string_list(value(section, "Names", ""));
       for (const auto &name : Utilities::split_string_list(names))
         if (key.rfind(section + "/" + name + "/", 0) == 0 && std::find(now.begin(), now.end(), name) == now.end())
           return true;

@@ -24,6 +24,7 @@ namespace Talus
     add_parameter("Remember loosening", remembers_loosening,
                   "Expansion at the apex opens a gap between the grains, which compression closes before it meets "
                   "pressure; false: loose sand bears pressure from the first compression on, as in the papers.");
+    strength_reduction.add_entry(*this);
   }
 
   void DruckerPrager::parse_parameters(ParameterHandler &prm)
@@ -41,6 +42,9 @@ namespace Talus
     check(cohesion >= 0, "Cohesion", "it must not be negative; dry sand has 0.");
     check(cohesion > 0 || friction_angle > 0, "Cohesion",
           "with neither cohesion nor friction the material has no strength. Give one of them, or use a fluid.");
+    strength_reduction.check(get_section_name());
+    strength_reduction.reduce(cohesion);
+    strength_reduction.reduce_angles(friction_angle, dilatancy_angle);
   }
 
   std::vector<EntryError> DruckerPrager::doubts() const

@@ -33,6 +33,7 @@ namespace Talus
                                "are reached");
     add_parameter("Tension strength", tension_strength,
                   "Greatest tension [stress]; negative, or more than c cot(phi): that.", prm, Patterns::Double());
+    strength_reduction.add_entry(*this);
   }
 
   void MohrCoulomb::check_angles(const std::string &prefix, const double friction, const double dilatancy) const
@@ -72,6 +73,10 @@ namespace Talus
       throw EntryError(get_section_name(), "Softening strain",
                        "it must be positive. A law that does not soften leaves out the residual values.");
     softening_slip.check(get_section_name());
+    strength_reduction.check(get_section_name());
+    strength_reduction.reduce(cohesion, residual_cohesion, tension_strength);
+    strength_reduction.reduce_angles(friction_angle, dilatancy_angle, residual_friction_angle,
+                                     residual_dilatancy_angle);
   }
 
   void MohrCoulomb::set_spacing(const double spacing)

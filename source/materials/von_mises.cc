@@ -29,6 +29,7 @@ namespace Talus
     add_parameter("Strength norm", norm,
                   "What of the deviator s the entries bound: von Mises: sqrt(3/2) |s|, tension; deviator: |s|.", prm,
                   Patterns::Selection("von Mises|deviator"));
+    strength_reduction.add_entry(*this);
   }
 
   void VonMises::parse_parameters(ParameterHandler &prm)
@@ -39,6 +40,8 @@ namespace Talus
         throw EntryError(get_section_name(), entry, message);
     };
     check(yield_stress > 0, "Yield stress", "it must be positive. Use 'linear elastic' for a material without one.");
+    strength_reduction.check(get_section_name());
+    strength_reduction.reduce(yield_stress, residual_stress);
     if (hardening == "linear")
       check(hardening_modulus >= 0, "Hardening modulus",
             "it must not be negative. Use 'Hardening = exponential softening' for a falling yield stress.");

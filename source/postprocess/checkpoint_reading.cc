@@ -4,7 +4,9 @@
 
 #include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -135,12 +137,16 @@ namespace Talus
                 InputError("the checkpoint '" + path + "' has the format " + std::to_string(static_cast<int>(format)) +
                            ", and this version of Talus reads format " + std::to_string(checkpoint_format) +
                            ". Go on with the version that wrote it."));
-    head.version    = text_attribute(id, "version");
-    head.parameters = text_attribute(id, "parameters");
-    head.step       = count_attribute(id, "step");
-    head.time       = number_attribute(id, "time");
-    n_ranks         = count_attribute(id, "ranks");
-    n_particles     = begins("particles").back();
+    head.version      = text_attribute(id, "version");
+    head.parameters   = text_attribute(id, "parameters");
+    head.step         = count_attribute(id, "step");
+    head.time         = number_attribute(id, "time");
+    head.stage        = count_attribute(id, "stage");
+    head.begins_stage = count_attribute(id, "begins stage") != 0;
+    head.stage_begin  = number_attribute(id, "stage begin");
+    head.bodies       = Utilities::split_string_list(text_attribute(id, "bodies"));
+    n_ranks           = count_attribute(id, "ranks");
+    n_particles       = begins("particles").back();
     check(size("particles/id") == n_particles, "particles/id");
   }
 
@@ -152,6 +158,11 @@ namespace Talus
     const Hid space(H5Dget_space(set), H5Sclose, "data set '" + name + "'");
     check(H5Sget_simple_extent_ndims(space) == 1, name);
     return H5Sget_simple_extent_npoints(space);
+  }
+
+  bool CheckpointFile::has_column(const std::string &name) const
+  {
+    return H5Lexists(file->file, ("particles/" + name).c_str(), H5P_DEFAULT) > 0;
   }
 
   std::vector<std::uint64_t> CheckpointFile::begins(const std::string &name) const
@@ -221,7 +232,8 @@ namespace Talus
   }
 
   template <int dim>
-  void CheckpointFile::read(WorkingSet<dim> &particles, const bool is_exact, MPI_Comm communicator) const
+  void CheckpointFile::read(WorkingSet<dim> &particles, const bool is_exact, MPI_Comm communicator,
+                            const std::vector<unsigned int> &others) const
   {
     const std::uint64_t rank  = Utilities::MPI::this_mpi_process(communicator),
                         n_now = Utilities::MPI::n_mpi_processes(communicator);
@@ -251,6 +263,8 @@ namespace Talus
       whole_numbers("place", particles.place);
     for (const auto &[name, column] : column_names(particles))
     {
+      if (std::find(others.begin(), others.end(), column) != others.end())
+        continue;
       read_numbers("particles/" + name, begin, end, particles.column(column));
       add_up(name, particles.column(column));
     }
@@ -264,6 +278,6 @@ namespace Talus
     }
   }
 
-  template void CheckpointFile::read(WorkingSet<2> &, const bool, MPI_Comm) const;
-  template void CheckpointFile::read(WorkingSet<3> &, const bool, MPI_Comm) const;
+  template void CheckpointFile::read(WorkingSet<2> &, const bool, MPI_Comm, const std::vector<unsigned int> &) const;
+  template void CheckpointFile::read(WorkingSet<3> &, const bool, MPI_Comm, const std::vector<unsigned int> &) const;
 } // namespace Talus

@@ -24,6 +24,14 @@ namespace Talus
 
   namespace
   {
+    std::string joined(const std::vector<std::string> &names)
+    {
+      std::string text;
+      for (const auto &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text;
+    }
+
     /** Notes whether the HDF5 library has met an error, which deal.II's interface passes over in Release builds. */
     class Hdf5Errors
     {
@@ -156,6 +164,10 @@ namespace Talus
       file.set_attribute("parameters", head.parameters);
       file.set_attribute("step", head.step);
       file.set_attribute("time", head.time);
+      file.set_attribute("stage", head.stage);
+      file.set_attribute("begins stage", head.begins_stage ? 1u : 0u);
+      file.set_attribute("stage begin", head.stage_begin);
+      file.set_attribute("bodies", joined(head.bodies));
       file.set_attribute("ranks", writer.n_ranks);
       write_particles(file, writer, particles);
       HDF5::Group numbers = file.create_group("numbers"), of_ranks = file.create_group("ranks");

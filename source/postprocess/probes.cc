@@ -128,8 +128,11 @@ namespace Talus
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       Probe<dim> &probe = *probes[i];
-      check_position(probe, grid, found[i].distance);
-      probe.id = static_cast<types::particle_index>(found[i].id);
+      if (!(probe.is_particle && probe.is_found))
+      {
+        check_position(probe, grid, found[i].distance);
+        probe.id = static_cast<types::particle_index>(found[i].id);
+      }
       if (!probe.is_particle)
         table.add(probe.name + "_distance", "length", probe.distance);
       probe.values.resize(n_components(fields));
@@ -153,6 +156,58 @@ namespace Talus
       throw EntryError(probe.get_section_name(), "Position",
                        "no particle starts within a cell's diagonal of this point; the nearest one is " +
                          std::to_string(distance) + " away. Move the point into a body.");
+  }
+
+  template <int dim>
+  void Probes<dim>::serialize(Archive &archive)
+  {
+    const Archive::Scope scope(archive, "probes");
+    std::vector<double>  ids;
+    for (const auto &probe : probes)
+      ids.push_back(probe->is_lost ? -1. : static_cast<double>(probe->id));
+    archive("ids", ids);
+    if (!archive.is_reading())
+      return;
+    AssertThrow(ids.size() == probes.size(), InputError("the checkpoint is not of a run with these probes."));
+    for (unsigned int i = 0; i < probes.size(); ++i)
+    {
+      probes[i]->is_found = true;
+      probes[i]->is_lost  = !(ids[i] >= 0);
+      probes[i]->id       = probes[i]->is_lost ? 0 : static_cast<types::particle_index>(ids[i]);
+    }
+  }
+
+  template <int dim>
+  void Probes<dim>::renumber(const std::function<std::optional<std::uint64_t>(std::uint64_t)> &new_id)
+  {
+    for (const auto &probe : probes)
+      if (probe->is_particle && !probe->is_lost)
+      {
+        const auto id  = new_id(probe->id);
+        probe->is_lost = !id;
+        probe->id      = static_cast<types::particle_index>(id.value_or(0));
+      }
+  }
+
+  template <int dim>
+  std::vector<std::string> Probes<dim>::lost() const
+  {
+    std::vector<std::string> sections;
+    for (const auto &probe : probes)
+      if (probe->is_lost)
+        sections.push_back(probe->get_section_name());
+    return sections;
+  }
+
+  template <int dim>
+  Tensor<1, dim> Probes<dim>::position_of(const std::string &name, const WorkingSet<dim> &particles) const
+  {
+    Tensor<1, dim> x;
+    for (const auto &probe : probes)
+      if (probe->name == name)
+        if (const auto at = std::find(particles.id.begin(), particles.id.end(), probe->id); at != particles.id.end())
+          x = particles.vector(particles.position, at - particles.id.begin());
+    return Utilities::MPI::sum(x, communicator);
   }
 
   template <int dim>
@@ -180,7 +235,7 @@ namespace Talus
         slot = std::find(particles.id.begin(), particles.id.end(), probe->id) - particles.id.begin();
 
       std::fill(probe->values.begin(), probe->values.end(), 0.);
-      if (slot < particles.size() && particles.id[slot] == probe->id)
+      if (!probe->is_lost && slot < particles.size() && particles.id[slot] == probe->id)
       {
         double *values = probe->values.data();
         for (const auto &field : fields)

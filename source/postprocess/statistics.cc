@@ -47,7 +47,7 @@ namespace Talus
     run_on_root(
       [&] {
         file.open(path);
-        file << header() << std::endl;
+        file << header(columns) << std::endl;
         number = number_of_file(path);
         AssertThrow(file, RunError("Cannot write '" + path + "'. Is the disk full, or the directory gone?"));
       },
@@ -62,7 +62,20 @@ namespace Talus
                          "of a run alone; 'talus --resume' goes on from the last checkpoint if that is still there."));
   }
 
-  std::string CsvFile::header() const
+  bool CsvFile::is_of(const std::string &path, const std::vector<Column> &columns, MPI_Comm communicator)
+  {
+    bool is_same = false;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    {
+      std::ifstream in(path);
+      std::string   line;
+      std::getline(in, line);
+      is_same = in && line == header(columns);
+    }
+    return Utilities::MPI::broadcast(communicator, is_same);
+  }
+
+  std::string CsvFile::header(const std::vector<Column> &columns)
   {
     std::string header;
     for (const auto &column : columns)
@@ -76,7 +89,8 @@ namespace Talus
     std::string   line;
     std::getline(in, line);
     AssertThrow(in, RunError("cannot read '" + path + "', to which the run that goes on would add rows."));
-    AssertThrow(line == header(), RunError("the columns of '" + path + "' are not those of the run that goes on."));
+    AssertThrow(line == header(columns),
+                RunError("the columns of '" + path + "' are not those of the run that goes on."));
     std::uintmax_t length = line.size() + 1;
     for (unsigned int number = 2; std::getline(in, line) && !in.eof() && !(std::strtod(line.c_str(), nullptr) > time);
          ++number)

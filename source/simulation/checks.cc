@@ -266,7 +266,8 @@ namespace Talus
       bool is_used = false;
       for (const auto &body : model.bodies)
         is_used = is_used || body->material == m;
-      if (!is_used)
+      // Another stage may have a body of it.
+      if (!is_used && !parameters.has_section("Stages"))
         warn("/Materials", "Names", "no body is made of '" + model.material_names[m] + "': it has no effect.");
       for (const auto &doubt : model.materials[m]->doubts())
         parameters.warn(doubt);

@@ -4,7 +4,6 @@
 #include <talus/core/exceptions.h>
 
 #include <array>
-#include <ctime>
 #include <filesystem>
 
 #include <unistd.h>
@@ -12,17 +11,6 @@
 namespace Talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    std::string date()
-    {
-      const std::time_t    now = std::time(nullptr);
-      std::array<char, 64> text{};
-      std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %z", std::localtime(&now));
-      return text.data();
-    }
-  } // namespace
 
   template <int dim>
   void Simulation<dim>::start_log(const bool goes_on)
@@ -54,9 +42,10 @@ namespace Talus
       throw;
     }
     log << date() << " ended: "
-        << (is_finished() ?
-              "done" :
-              "signal " + std::to_string(model.requests.signal_number()) + " (" + model.requests.signal_name() + ")")
+        << (is_to_go_on()                                 ? "stage " + stage_name() + " done" :
+            is_finished() && !model.requests.is_stopped() ? "done" :
+                                                            "signal " + std::to_string(model.requests.signal_number()) +
+                                                              " (" + model.requests.signal_name() + ")")
         << std::endl;
   }
 
@@ -115,9 +104,11 @@ namespace Talus
   void Simulation<dim>::stop()
   {
     progress->finish(now.time, now.step);
+    const std::string &resumed = trial.begin == nullptr ? output.directory() : trial.begin->directory;
     say(timing.table() + stepper->summary() + resources.traffic(now.step - first_step) +
         resources.memory(model.particles.n_global) + "Stopped by " + model.requests.signal_name() + now.text() +
-        ". It goes on with: talus --resume " + output.directory() + "\nCheckpoint " + last_checkpoint + '\n');
+        ". It goes on with: talus --resume " + resumed + "\nCheckpoint " +
+        (trial.begin == nullptr ? last_checkpoint : trial.begin->file) + '\n');
   }
 
 #define INSTANTIATE(dim)                                                                                               \

@@ -3,6 +3,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <array>
+#include <ctime>
 #include <iomanip>
 #include <sstream>
 
@@ -19,10 +21,24 @@ namespace Talus
       Utilities::System::get_memory_stats(stats);
       return {1024. * stats.VmRSS, 1024. * stats.VmHWM};
     }
+
+    /** The same when the first part of a run began: later ones take up the memory that it has left. */
+    double first_memory()
+    {
+      static const double memory = resident_memory().first;
+      return memory;
+    }
   } // namespace
 
-  Resources::Resources(const Communicator &communicator) :
-    communicator(communicator), memory_at_start(resident_memory().first)
+  std::string date()
+  {
+    const std::time_t    now = std::time(nullptr);
+    std::array<char, 64> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S %z", std::localtime(&now));
+    return text.data();
+  }
+
+  Resources::Resources(const Communicator &communicator) : communicator(communicator), memory_at_start(first_memory())
   {
   }
 

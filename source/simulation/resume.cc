@@ -2,6 +2,7 @@
 
 #include <talus/core/parameter_names.h>
 #include <talus/postprocess/checkpoints.h>
+#include <talus/simulation/stages.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -83,14 +84,19 @@ namespace Talus
   Parameters Resume::parameters(const std::vector<std::string> &overrides) const
   {
     const Parameters before = Parameters::from_text(head.parameters, file);
+    const Stages     stages(before);
     for (const auto &text : overrides)
     {
-      const std::string key = key_of(text);
-      if (!may_change(key) &&
+      const std::string key   = key_of(text);
+      const int         stage = stages.stage_of(key), next = head.stage + (head.begins_stage ? 0 : 1);
+      const bool        is_to_come = stage >= next;
+      if (!may_change(key) && !is_to_come &&
           !(before.is_set(parent(key), leaf(key)) && before.value(parent(key), leaf(key), "") == value_of(text)))
-        throw InputError("--set \"" + shortened(text) + "\": a run that goes on cannot change " + describe(key) +
-                         ". It may change 'End time', 'Number of steps' and 'Local damping' in section 'Run', and the "
-                         "sections 'Checkpoints' and 'Output', but 'Directory' and 'Probes' there. Start a new run.");
+        throw InputError(
+          "--set \"" + shortened(text) + "\": a run that goes on cannot change " + describe(key) +
+          ". It may change 'End time', 'Number of steps' and 'Local damping' in section 'Run', and the "
+          "sections 'Checkpoints' and 'Output', but 'Directory' and 'Probes' there, and what stages to come change. "
+          "Start a new run.");
     }
     auto all = overrides;
     all.push_back("Output/Directory = " + directory);

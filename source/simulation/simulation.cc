@@ -1,6 +1,5 @@
 #include <talus/simulation/simulation.h>
 
-#include <talus/core/command_line.h>
 #include <talus/core/exceptions.h>
 #include <talus/core/memory.h>
 
@@ -11,11 +10,13 @@ namespace Talus
   using namespace dealii;
 
   template <int dim>
-  Simulation<dim>::Simulation(Parameters &parameters, const Communicator &communicator) :
-    ParameterAcceptor("/Run"), communicator(communicator), parameters(parameters), resources(communicator),
-    model(parameters, communicator),
+  Simulation<dim>::Simulation(Parameters &parameters, const Communicator &communicator,
+                              const unsigned int stage_number) :
+    ParameterAcceptor("/Run"),
+    communicator(communicator), parameters(parameters), resources(communicator), model(parameters, communicator),
     stepper(parameters.make<Stepper<dim>>("/Run", "Stepper", "explicit", "How the state is advanced in time.")),
-    probes(parameters), references(parameters, model, communicator)
+    probes(parameters), references(parameters, model, communicator), stages(Stages::declare(parameters)),
+    stage_number(stage_number)
   {
     AssertThrow(!model.bodies.empty(), EntryError("/Bodies", "Names", "give at least one body."));
     add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
@@ -25,10 +26,26 @@ namespace Talus
   }
 
   template <int dim>
+  std::unique_ptr<Simulation<dim>> Simulation<dim>::make(Parameters &parameters, const Communicator &communicator,
+                                                         const unsigned int stage_number)
+  {
+    References<dim>::allow_idle_entries(parameters);
+    parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
+    auto simulation = std::make_unique<Simulation>(parameters, communicator, stage_number);
+    parameters.parse();
+    return simulation;
+  }
+
+  template <int dim>
   void Simulation<dim>::parse_parameters(ParameterHandler &)
   {
     if (!(end_time > 0))
       throw EntryError(get_section_name(), "End time", "it must be positive.");
+    if (!stages.empty() && parameters.is_set(get_section_name(), "End time"))
+      throw EntryError(get_section_name(), "End time",
+                       "the run has stages, and ends after their durations. Remove the entry.");
+    if (!stages.empty() && references.any())
+      throw EntryError("/Stages", "Names", "runs in stages have no reference. Remove the stages, or the reference.");
   }
 
   template <int dim>
@@ -58,20 +75,30 @@ namespace Talus
         checkpoint();
       }
     }
-    if (is_finished())
+    if (!is_finished())
+      stop();
+    else if (stages.empty())
       finish();
     else
-      stop();
+      finish_stage();
   }
 
   template <int dim>
-  void Simulation<dim>::set_up()
+  void Simulation<dim>::set_up(const Resume *resume)
   {
     const Timing::Scope scope(timing, timing.add("set-up"));
     for (const auto &remark : model.grid.remarks)
       parameters.warn(remark);
     tell_warnings(); // the system may end a run that takes its memory
+    const bool begins_stage = resume != nullptr && resume->head.begins_stage;
+    if (!stages.empty())
+    {
+      stage_begin = resume == nullptr ? 0. : begins_stage ? resume->head.time : resume->head.stage_begin;
+      end_time    = stage_begin + stages.at(stage_number)->duration;
+    }
     model.create([this] { references.start(model); });
+    if (begins_stage)
+      begin_stage(*resume);
     report = stepper->start(model, timing);
     energy.start(report, current_totals().strain_energy);
     fracture.start(model);
@@ -107,10 +134,12 @@ namespace Talus
       say(report.news + now.text() + ".\n");
     }
     energy.check(model, report, now);
+    most_kinetic_energy = std::max(most_kinetic_energy, report.kinetic_energy);
     if (now.step % energy.interval == 0 || is_finished())
     {
       energy.check_total(model, report, current_totals().strain_energy, now);
       look_for_fracture();
+      look_for_rest();
     }
   }
 
@@ -162,71 +191,6 @@ namespace Talus
   }
 
   template <int dim>
-  void Simulation<dim>::open_output(const Resume *resume)
-  {
-    output_section     = timing.add("output");
-    reference_section  = timing.add("finite element reference");
-    checkpoint_section = timing.add("checkpoints");
-    output.leave_out(references.idle_fields());
-    probes.leave_out(references.idle_fields());
-    output.check(model.particles);
-    if (resume)
-      output.reopen(communicator);
-    else
-      output.open(communicator);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-    {
-      start_log(resume != nullptr);
-      std::ofstream used(output.directory() + "/parameters.prm");
-      parameters.print(used, /* with_help = */ false);
-      AssertThrow(log && used.flush(), RunError("Cannot write into the directory '" + output.directory() + "'."));
-    }
-    fill_table();
-    const std::string statistics_file = output.directory() + "/statistics.csv";
-    if (resume)
-    {
-      probes.reopen(output.directory(), now.time, model.particles, model.grid);
-      statistics.reopen(statistics_file, table.columns(), now.time, communicator);
-      say("\nGoing on from '" + resume->file + "', step " + std::to_string(now.step) + ".\n");
-    }
-    else
-    {
-      probes.open(output.directory(), model.particles, model.grid);
-      statistics.open(statistics_file, table.columns(), communicator);
-    }
-    checkpoints.start(output.directory(), now, communicator);
-    say(summary());
-    tell_warnings();
-    progress = std::make_unique<Progress>(communicator, end_time, model.particles.n_global);
-  }
-
-  template <int dim>
-  void Simulation<dim>::fill_table()
-  {
-    table.add("time", "time", now.time);
-    table.add("step", "1", [this] { return now.step; });
-    table.add("step size", "time", now.dt);
-    totals.add_to(table);
-    energy.add_to(table);
-    table.add("energy residual", "energy",
-              [this] { return energy.residual(totals.kinetic_energy, totals.strain_energy); });
-    if (model.account.is_on)
-    {
-      energy.add_losses_to(table);
-      table.add("plastic work", "energy", totals.plastic_work);
-      table.add("unaccounted energy", "energy", [this] {
-        return energy.unaccounted(energy.residual(totals.kinetic_energy, totals.strain_energy), totals.plastic_work);
-      });
-    }
-    table.add("lost momentum", "mass length/time", lost_momentum);
-    fracture.add_to(table);
-    model.boundary.add_to(table);
-    model.tractions.add_to(table);
-    model.contacts.add_to(table);
-    references.add_to(table);
-  }
-
-  template <int dim>
   Totals<dim> Simulation<dim>::current_totals()
   {
     // The law stores the energy of its own stress.
@@ -260,16 +224,6 @@ namespace Talus
   {
     for (; n_told < parameters.warnings().size(); ++n_told)
       say_warning(parameters.warnings()[n_told]);
-  }
-
-  template <int dim>
-  std::string Simulation<dim>::summary() const
-  {
-    std::ostringstream text;
-    text << "Talus " << version() << ", " << Utilities::MPI::n_mpi_processes(communicator) << " rank(s)\n"
-         << model.summary() << "  output     " << output.directory() << '\n'
-         << stepper->warning(model);
-    return text.str();
   }
 
   template class Simulation<2>;

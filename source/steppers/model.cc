@@ -246,6 +246,10 @@ namespace Talus
     archive.of_rank("partition", last_counts);
     if (archive.is_reading() && Utilities::MPI::this_mpi_process(grid.communicator) != 0 && !archive.is_exact())
       last_counts.clear(); // the first rank has those of all
+    std::vector<double> first_ids;
+    for (const auto &body : bodies)
+      first_ids.push_back(body->first_id);
+    archive("first ids", first_ids); // for a stage with other bodies
     grid.serialize(archive);
     if (archive.is_reading())
     {

@@ -104,6 +104,12 @@ namespace objectivity
 
 void batches();
 
+namespace strength_reduction
+{
+  void strengths();
+  void errors();
+} // namespace strength_reduction
+
 namespace softening_slip
 {
   void energy();
@@ -186,6 +192,8 @@ namespace
             {"Newtonian fluid: numbers", newtonian_fluid::numbers},
             {"Newtonian fluid: parameter errors", newtonian_fluid::parameter_errors},
             {"softening slip: energy", softening_slip::energy},
+            {"strength reduction", strength_reduction::strengths},
+            {"strength reduction: errors", strength_reduction::errors},
             {"softening slip: errors", softening_slip::errors},
             {"all laws: constant rotation", objectivity::constant_rotation},
             {"all laws: superposed rotation", objectivity::superposed_rotation},

@@ -37,6 +37,9 @@ namespace Talus
     {
     }
 
+    /** From here on what has no name in it stays as it is, and is no error: for a run that has changed since. */
+    void may_lack_names() { lacks = true; }
+
     bool is_reading() const { return reads; }
     bool is_exact() const { return exact; }
 
@@ -94,7 +97,7 @@ namespace Talus
     double the_one(const std::string &name, const std::vector<double> &numbers) const;
 
     Numbers     shared, own;
-    bool        reads = false, exact = true;
+    bool        reads = false, exact = true, lacks = false;
     std::string prefix;
   };
 } // namespace Talus

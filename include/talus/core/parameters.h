@@ -12,6 +12,9 @@
 
 namespace Talus
 {
+  /** A section and an entry as one key without a leading slash. */
+  std::string parameter_key(const std::string &section, const std::string &entry);
+
   /**
    * A parameter file and the `--set` overrides, read in two passes.
    *
@@ -37,7 +40,7 @@ namespace Talus
     static Parameters from_text(const std::string &text, const std::string &name = "text",
                                 const std::vector<std::string> &overrides = {});
 
-    /** What the file and `--set` set, as the text of a file without `include`. */
+    /** What the file and `--set` set, with all stages, as the text of a file without `include`. */
     std::string settings_text() const;
 
     /** Declares a choice among what is registered in a kind and returns what the file chooses. */
@@ -56,6 +59,22 @@ namespace Talus
 
     /** Declares and returns the list of names of the objects in a section ("Bodies", ...). */
     std::vector<std::string> names(const std::string &section, const std::string &help);
+
+    /**
+     * What the file says from a stage on: the entries within the subsections of "Stages/NAME" of the first `n` names
+     * take the place of those of the run, each stage after the one before. Objects that only another stage lists are
+     * left out. No object may exist.
+     */
+    Parameters after_changes(const std::vector<std::string> &stages, const unsigned int n) const;
+
+    /** Sets an entry as if the file had; `origin` says in messages where. No object may exist. */
+    void set(const std::string &section, const std::string &entry, const std::string &value, const std::string &origin)
+    {
+      settings[parameter_key(section, entry)] = {value, origin};
+    }
+
+    /** The entries that a stage changes: "Materials/sand/Cohesion". */
+    std::vector<std::string> changed_by(const std::string &stage) const;
 
     /** Whether the file, or `--set`, sets an entry. */
     bool is_set(const std::string &section, const std::string &entry) const { return find(section, entry) != nullptr; }
@@ -104,20 +123,18 @@ namespace Talus
     [[noreturn]] void reject_unknown(const std::string &key, const Setting &setting) const;
     const Setting    *find(const std::string &section, const std::string &entry) const;
 
-    /** Whether an entry is of an object that the file lists and `--set` does not. */
+    /** Whether an entry is of an object that the file lists, and `--set` or the stage does not. */
     bool is_left_out(const std::string &key) const;
 
-    std::map<std::string, Setting>     settings;      // by "Section/Subsection/Entry"
-    std::map<std::string, std::string> sections;      // where each was opened
-    std::vector<std::string>           open_files;    // being scanned, each included by the one before
-    std::map<std::string, std::string> names_of_file; // `Names` that `--set` has replaced, by section
-    std::map<std::string, std::string> idle;          // entries that nothing reads, and why that may surprise
+    std::map<std::string, Setting>     settings;    // by "Section/Subsection/Entry"
+    std::map<std::string, std::string> sections;    // where each was opened
+    std::vector<std::string>           open_files;  // being scanned, each included by the one before
+    std::map<std::string, std::string> other_names; // of objects that `--set` or a stage has left out, by section
+    std::map<std::string, std::string> idle;        // entries that nothing reads, and why that may surprise
     std::vector<std::string>           notes;
     std::string                        file_name;
+    std::string                        text_of_all; // settings_text() of all stages, in those of one
   };
-
-  /** A section and an entry as one key without a leading slash. */
-  std::string parameter_key(const std::string &section, const std::string &entry);
 
   /** Among `candidates` the one most like `word`; empty when none is close. */
   std::string closest(const std::string &word, const std::vector<std::string> &candidates);

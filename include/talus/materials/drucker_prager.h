@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/materials/elastic_material.h>
+#include <talus/materials/strength_reduction.h>
 
 #include <limits>
 
@@ -58,5 +59,7 @@ namespace Talus
     double cohesion        = 0;  // [stress]
 
     bool remembers_loosening = true;
+
+    StrengthReduction strength_reduction;
   };
 } // namespace Talus

@@ -2,6 +2,7 @@
 
 #include <talus/materials/elastic_material.h>
 #include <talus/materials/softening_slip.h>
+#include <talus/materials/strength_reduction.h>
 
 #include <limits>
 
@@ -47,7 +48,8 @@ namespace Talus
     /** Throws EntryError if they are none of a soil. */
     void check_angles(const std::string &prefix, const double friction, const double dilatancy) const;
 
-    SofteningSlip softening_slip;
+    SofteningSlip     softening_slip;
+    StrengthReduction strength_reduction;
 
     double friction_angle = 30, dilatancy_angle = 0, cohesion = 0;                              // [degrees], [stress]
     double residual_friction_angle = -1, residual_dilatancy_angle = -1, residual_cohesion = -1; // < 0: as at the peak

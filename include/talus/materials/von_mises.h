@@ -3,6 +3,7 @@
 #include <talus/materials/elastic_material.h>
 #include <talus/materials/hardening.h>
 #include <talus/materials/softening_slip.h>
+#include <talus/materials/strength_reduction.h>
 
 #include <cmath>
 
@@ -51,7 +52,8 @@ namespace Talus
     /** Yield stress in tension over the strength as the entries give it. */
     double in_tension() const { return norm == "deviator" ? std::sqrt(1.5) : 1.; }
 
-    SofteningSlip softening_slip;
+    SofteningSlip     softening_slip;
+    StrengthReduction strength_reduction;
 
     std::string hardening         = "perfect";
     std::string norm              = "von Mises";

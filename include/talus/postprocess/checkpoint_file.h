@@ -19,6 +19,11 @@ namespace Talus
     std::string  parameters; // the text of a parameter file
     unsigned int step = 0;
     double       time = 0; // [time]
+
+    unsigned int             stage        = 0; // of the run, in which the next step is
+    bool                     begins_stage = false;
+    double                   stage_begin  = 0; // [time]
+    std::vector<std::string> bodies;           // their names
   };
 
   /**
@@ -26,11 +31,11 @@ namespace Talus
    *
    * | group or attribute | holds |
    * |---|---|
-   * | attributes `format`, `version`, `parameters`, `step`, `time`, `ranks` | the head |
-   * | `particles` | a data set for each column, the particles of rank 0 first, each rank's in their order in memory |
-   * | `numbers` | the archive's numbers that all ranks share, a data set for each name |
-   * | `ranks` | those of each rank, one rank after the other |
-   * | `begins` | where each rank's part begins, and the end, of each data set in `ranks`, and of the particles |
+   * | attributes `format`, `version`, `parameters`, `step`, `time`, `stage`, `begins stage`, `stage begin`, `bodies`,
+   * `ranks` | the head | | `particles` | a data set for each column, the particles of rank 0 first, each rank's in
+   * their order in memory | | `numbers` | the archive's numbers that all ranks share, a data set for each name | |
+   * `ranks` | those of each rank, one rank after the other | | `begins` | where each rank's part begins, and the end,
+   * of each data set in `ranks`, and of the particles |
    *
    * Each data set has the attribute `checksum`. After HDF5's end of the file stands a line with the file's size and a
    * checksum of all its bytes: what is not complete is known before a library reads it. The file is written under a
@@ -58,9 +63,16 @@ namespace Talus
     /** What this rank had, if as many ranks have written the file; else what all had: then it cannot be exact. */
     Archive archive(const unsigned int rank, const bool is_exact) const;
 
-    /** Fills the working set with what this rank had, or with an equal share. Collective. */
+    /**
+     * Fills the working set with what this rank had, or with an equal share. Columns of `others`, by number, the file
+     * need not have. Collective.
+     */
     template <int dim>
-    void read(WorkingSet<dim> &particles, const bool is_exact, MPI_Comm communicator) const;
+    void read(WorkingSet<dim> &particles, const bool is_exact, MPI_Comm communicator,
+              const std::vector<unsigned int> &others = {}) const;
+
+    /** Whether particles have a column of this name. */
+    bool has_column(const std::string &name) const;
 
     /** Numbers `begin` .. end - 1 of a data set, "particles/mass". */
     std::vector<double> numbers(const std::string &name, const std::uint64_t begin, const std::uint64_t end) const;

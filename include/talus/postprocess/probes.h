@@ -1,9 +1,13 @@
 #pragma once
 
+#include <talus/core/archive.h>
 #include <talus/core/parameters.h>
 #include <talus/grid/grid.h>
 #include <talus/postprocess/particle_fields.h>
 #include <talus/postprocess/statistics.h>
+
+#include <functional>
+#include <optional>
 
 namespace Talus
 {
@@ -20,8 +24,9 @@ namespace Talus
     bool               is_particle = false;
     dealii::Point<dim> position;
 
-    dealii::types::particle_index id   = 0; // of the tracked particle
-    unsigned int                  slot = 0; // where it was last found on this rank
+    dealii::types::particle_index id       = 0;                      // of the tracked particle
+    bool                          is_found = false, is_lost = false; // at an earlier begin; with its body
+    unsigned int                  slot = 0;                          // where it was last found on this rank
 
     double              distance = 0; // of the particle from a point [length]
     std::vector<double> values;       // of the fields
@@ -58,13 +63,25 @@ namespace Talus
     void reopen(const std::string &directory, const double time, const WorkingSet<dim> &particles,
                 const Grid<dim> &grid);
 
+    /** Which particles are followed. */
+    void serialize(Archive &archive);
+
+    /** The particles have other numbers now: `new_id` says which, or nothing where one is gone. */
+    void renumber(const std::function<std::optional<std::uint64_t>(std::uint64_t)> &new_id);
+
     /** Drops fields from those that the file chooses, of an object that is switched off; before open(). */
     void leave_out(const std::vector<std::string> &names) { Talus::leave_out(names, field_names); }
 
     /** Appends a row. Collective. */
     void write(const double time, const WorkingSet<dim> &particles);
 
+    /** Where the particle of a probe is, by its name; the same on all ranks. Collective. */
+    dealii::Tensor<1, dim> position_of(const std::string &name, const WorkingSet<dim> &particles) const;
+
     bool is_empty() const { return probes.empty(); }
+
+    /** Sections of probes that follow a particle which is gone. */
+    std::vector<std::string> lost() const;
 
   private:
     void check_position(const Probe<dim> &probe, const Grid<dim> &grid, const double distance) const;

@@ -30,11 +30,15 @@ namespace Talus
     void reopen(const std::string &path, const std::vector<Column> &columns, const double time,
                 MPI_Comm communicator = MPI_COMM_WORLD);
 
+    /** Whether there is a file of these columns. Collective. */
+    static bool is_of(const std::string &path, const std::vector<Column> &columns,
+                      MPI_Comm communicator = MPI_COMM_WORLD);
+
     /** One value for each column, the same on all ranks. */
     void write_row(const std::vector<double> &values);
 
   private:
-    std::string header() const;
+    static std::string header(const std::vector<Column> &columns);
 
     /** Throws RunError where the file is not there any more, or another one. */
     void check_is_there() const;

@@ -45,6 +45,9 @@ namespace Talus
     /** Whether what they remember holds for this end time alone. */
     bool hang_on_end_time() const { return comparison || verification; }
 
+    /** Whether the run has any. */
+    bool any() const { return comparison || load_curve || motion || verification; }
+
     /** Solves, writes into `directory` and says what is to be said of it. Collective. */
     std::string finish(const double time, const double end_time, const std::string &directory, Model<dim> &model);
 

@@ -6,6 +6,9 @@
 
 namespace Talus
 {
+  /** Date and time of the clock, for the log. */
+  std::string date();
+
   /** What a run takes of the machine: memory, and messages between its ranks. */
   class Resources
   {

@@ -17,7 +17,10 @@ namespace Talus
     /** Looks for the checkpoint. Throws InputError where there is none, or none that is complete. Collective. */
     Resume(const std::string &directory, MPI_Comm communicator);
 
-    /** Those of the run, changed by `overrides`. Throws InputError for an entry that may not change. */
+    /**
+     * Those of the run, changed by `overrides`: of the whole file, with all stages. Throws InputError for an entry that
+     * may not change.
+     */
     Parameters parameters(const std::vector<std::string> &overrides) const;
 
     /** Whether one of `overrides` is of this entry. */

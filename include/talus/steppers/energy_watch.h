@@ -3,6 +3,7 @@
 #include <talus/steppers/model.h>
 #include <talus/steppers/report.h>
 
+#include <cmath>
 #include <functional>
 
 namespace Talus
@@ -36,6 +37,12 @@ namespace Talus
     {
       return kinetic_energy + strain_energy + damping_energy -
              (initial_energy + body_force_work + condition_work + traction_work + contact_work);
+    }
+
+    /** Work of body force, conditions, tractions and contacts, each as a magnitude [energy]. */
+    double put_in() const
+    {
+      return std::abs(body_force_work) + std::abs(condition_work) + std::abs(traction_work) + std::abs(contact_work);
     }
 
     /** What is left of the residual when all losses that are known are added to it [energy]. */
