@@ -122,7 +122,9 @@ namespace Talus
       {
         PlasticStep<Number> result = step(I1, sqrt_J2);
         const auto          closes = (gap > Number(0.)) & (I1 - 3 * K * result.d_volume < Number(0.));
-        const Number        opened = gap + (result.d_volume - 3 * beta * result.d_lambda);
+        // On the cone the two are the same, but for round-off, which would open it.
+        const Number opened =
+          gap + select(result.at_apex, Number(result.d_volume - 3 * beta * result.d_lambda), Number(0.));
         if (!any(closes))
         {
           gap = opened;
