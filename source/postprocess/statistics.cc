@@ -4,9 +4,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 #include <sys/stat.h>
 
@@ -83,25 +85,41 @@ namespace Talus
     return header;
   }
 
-  std::uintmax_t CsvFile::length_until(const double time) const
+  std::uintmax_t CsvFile::length_until(const double time, const std::string &path, std::istream &in,
+                                       const unsigned int n_columns)
   {
-    std::ifstream in(path);
-    std::string   line;
-    std::getline(in, line);
-    AssertThrow(in, RunError("cannot read '" + path + "', to which the run that goes on would add rows."));
-    AssertThrow(line == header(columns),
-                RunError("the columns of '" + path + "' are not those of the run that goes on."));
-    std::uintmax_t length = line.size() + 1;
+    std::uintmax_t length = 0;
+    std::string    line;
     for (unsigned int number = 2; std::getline(in, line) && !in.eof() && !(std::strtod(line.c_str(), nullptr) > time);
          ++number)
     {
-      AssertThrow(is_row(line, columns.size()),
+      AssertThrow(is_row(line, n_columns),
                   RunError("line " + std::to_string(number) + " of '" + path + "' is no row of " +
-                           std::to_string(columns.size()) +
+                           std::to_string(n_columns) +
                            " numbers: the file was changed. Mend or remove the line for the run to go on."));
       length += line.size() + 1;
     }
     return length;
+  }
+
+  void CsvFile::check(const std::string &path, MPI_Comm communicator)
+  {
+    run_on_root(
+      [&] {
+        std::ifstream in(path);
+        std::string   line;
+        std::getline(in, line);
+        AssertThrow(in && line.compare(0, 4, "time") == 0,
+                    RunError("'" + path +
+                             "' does not begin with the names of its columns: it was changed, or is not of this run."));
+        const auto length =
+          line.size() + 1 +
+          length_until(std::numeric_limits<double>::max(), path, in, std::count(line.begin(), line.end(), ',') + 1);
+        AssertThrow(length == std::filesystem::file_size(path),
+                    RunError("the last line of '" + path +
+                             "' is not complete: the file was changed. Remove the line for the run to go on."));
+      },
+      communicator);
   }
 
   void CsvFile::reopen(const std::string &path, const std::vector<Column> &columns, const double time,
@@ -112,8 +130,14 @@ namespace Talus
     is_root       = Utilities::MPI::this_mpi_process(communicator) == 0;
     run_on_root(
       [&] {
+        std::ifstream in(path);
+        std::string   line;
+        std::getline(in, line);
+        AssertThrow(in, RunError("cannot read '" + path + "', to which the run that goes on would add rows."));
+        AssertThrow(line == header(columns),
+                    RunError("the columns of '" + path + "' are not those of the run that goes on."));
         std::error_code error;
-        std::filesystem::resize_file(path, length_until(time), error);
+        std::filesystem::resize_file(path, line.size() + 1 + length_until(time, path, in, columns.size()), error);
         file.open(path, std::ios::app);
         file.seekp(0, std::ios::end);
         number = number_of_file(path);

@@ -58,6 +58,7 @@ namespace Talus
     std::string file = output.directory() + "/statistics.csv";
     if (stage_number > 0 && !CsvFile::is_of(file, table.columns(), communicator))
     {
+      CsvFile::check(file, communicator);
       file = output.directory() + "/statistics_" + stages[stage_number]->name + ".csv";
       if (resume.head.begins_stage)
       {

@@ -19,7 +19,11 @@ namespace Talus
     stage_number(stage_number)
   {
     AssertThrow(!model.bodies.empty(), EntryError("/Bodies", "Names", "give at least one body."));
-    add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
+    if (stages.empty())
+      add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
+    else
+      parameters.refuse(EntryError("/Run", "End time",
+                                   "the run has stages, and ends after their durations. Remove the entry."));
     add_parameter("Number of steps", max_steps,
                   "The run ends after this many steps if the end time is later; 0: no limit.", prm,
                   Patterns::Integer(0));
@@ -41,9 +45,6 @@ namespace Talus
   {
     if (!(end_time > 0))
       throw EntryError(get_section_name(), "End time", "it must be positive.");
-    if (!stages.empty() && parameters.is_set(get_section_name(), "End time"))
-      throw EntryError(get_section_name(), "End time",
-                       "the run has stages, and ends after their durations. Remove the entry.");
     if (!stages.empty() && references.any())
       throw EntryError("/Stages", "Names", "runs in stages have no reference. Remove the stages, or the reference.");
   }

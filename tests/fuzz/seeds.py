@@ -158,6 +158,45 @@ subsection FEM reference
   end
 end
 """
+STAGES = """\
+subsection Stages
+  set Names = one, two
+  subsection one
+    set Duration = 1.2e-3
+    set Rest = 1e-6
+  end
+  subsection two
+    set Duration = 1
+    set Reset displacements = true
+    set Reset plastic strains = true
+    subsection Run
+      set Local damping = 0.2
+    end
+    subsection Materials
+      subsection rubber
+        set Type = Mohr-Coulomb
+        set Cohesion = 1e5
+      end
+    end
+    subsection Bodies
+      set Names = drop, block
+      subsection drop
+        set Shape = ball
+        set Centre = 1, 0.9
+        set Radius = 0.09
+      end
+    end
+    subsection Tractions
+      set Names = pull
+      subsection pull
+        set Body = block
+        set Faces = x+
+        set Traction = 100; 0
+      end
+    end
+  end
+end
+"""
 MESH = [("set Spacing = 0.125", "set Type = mesh\n  set Cells = 8, 4"), ("quadratic B-spline", "UMLS"),
         ("set Boundary ids = 2", "set Boundaries = lower y")]
 FILE = [("set Lower corner = 0, 0\n  set Upper corner = 2, 1\n  set Spacing = 0.125",
@@ -194,6 +233,7 @@ SEEDS = {
     "polygon": (changed(BASE, (BOX, "    set Shape = surface\n    set File = outline.txt\n")), {"outline.txt": POLYGON}),
     "table": (changed(BASE, (BOX, "    set Shape = points\n    set File = table.csv\n    set Ignore columns = weight\n"
                                   "    set Only body = 1\n")), {"table.csv": TABLE}),
+    "stages": (with_section(changed(BASE, PROBES, ("  set End time = 0.01\n", "  set Step size = 7e-4\n")), STAGES), {}),
     "regions": (changed(BASE, (BOX, UNION)), {}),
     "where": (changed(BASE, (BOX, BOX + "    set Where = y < 0.5 + 0.1 * sin(5 * x) && x > 0.3\n"),
                       ("set Boundary ids = 2", "set Boundary ids = 2\n    set Where = x < 1")), {}),

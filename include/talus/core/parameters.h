@@ -95,6 +95,13 @@ namespace Talus
      */
     void allow(const std::string &section, const std::string &entry, const std::string &reason = "");
 
+    /** Throws the error if the file sets its entry. */
+    void refuse(const EntryError &error) const
+    {
+      if (is_set(error.section, error.entry))
+        throw EntryError(error);
+    }
+
     /** Keeps what the user should be told, with the place where the entry was set. */
     void warn(const EntryError &error) { notes.push_back(locate(error)); }
 

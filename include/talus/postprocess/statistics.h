@@ -34,6 +34,9 @@ namespace Talus
     static bool is_of(const std::string &path, const std::vector<Column> &columns,
                       MPI_Comm communicator = MPI_COMM_WORLD);
 
+    /** Throws RunError where a table of other columns, to which no row is added, has been changed. Collective. */
+    static void check(const std::string &path, MPI_Comm communicator = MPI_COMM_WORLD);
+
     /** One value for each column, the same on all ranks. */
     void write_row(const std::vector<double> &values);
 
@@ -43,8 +46,12 @@ namespace Talus
     /** Throws RunError where the file is not there any more, or another one. */
     void check_is_there() const;
 
-    /** The number of bytes up to the end of the last row that is not later than `time`. */
-    std::uintmax_t length_until(const double time) const;
+    /**
+     * The number of bytes of the rows of a file, whose first line has been read, up to the last one that is complete and
+     * not later than `time`. Throws RunError for what is no row.
+     */
+    static std::uintmax_t length_until(const double time, const std::string &path, std::istream &in,
+                                       const unsigned int n_columns);
 
     std::string         path;
     std::vector<Column> columns;

@@ -61,7 +61,7 @@ namespace Talus
     /** Whether stage `n` is a search for a factor of safety. */
     bool searches(const unsigned int n) const
     {
-      return !file.value("/Stages/" + names[n], "Strength reduction", "").empty();
+      return n < names.size() && !file.value("/Stages/" + names[n], "Strength reduction", "").empty();
     }
 
     /** What the file says in stage `n`, the first is 0. No object may exist. */
