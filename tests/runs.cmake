@@ -50,12 +50,12 @@ talus_add_run(contrib.plot 1 ${CMAKE_CURRENT_SOURCE_DIR}/plot.py $<TARGET_FILE:t
 talus_add_run(help 1 ${CMAKE_CURRENT_SOURCE_DIR}/help.py $<TARGET_FILE:talus> ${PROJECT_SOURCE_DIR})
 
 # What the pages print can be typed.
-foreach(page README doc/tour doc/gallery doc/element)
+foreach(page README doc/tour doc/gallery doc/element doc/stages)
   string(REPLACE / . name ${page})
   talus_add_run(commands.${name} 2 ${CMAKE_CURRENT_SOURCE_DIR}/commands.py ${page}.md ${PROJECT_BINARY_DIR}
     ${work}/commands.${name} ${MPIRUN})
 endforeach()
-set_tests_properties(commands.doc.tour commands.doc.gallery PROPERTIES LABELS long)
+set_tests_properties(commands.doc.tour commands.doc.gallery commands.doc.stages PROPERTIES LABELS long)
 
 # Help of the commands, which needs no build and makes none.
 foreach(command fingerprint gallery install-dependencies manual plot quickstart report reproduce test throughput)
