@@ -23,7 +23,7 @@ _talus() {
   elif [[ $previous == --resume ]]; then
     mapfile -t COMPREPLY < <(compgen -d -- "$word")
   elif [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "--set --resume --element --parameters --list --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "--set --resume --check --element --parameters --list --help --version" -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -X '!*.prm' -- "$word"; compgen -d -S / -- "$word")
     compopt -o nospace

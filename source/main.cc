@@ -2,6 +2,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/core/parameters.h>
 #include <talus/simulation/element.h>
+#include <talus/simulation/help_topics.h>
 #include <talus/simulation/list.h>
 #include <talus/simulation/resume.h>
 #include <talus/simulation/safety_search.h>
@@ -24,6 +25,12 @@ namespace
   std::string program() { return "talus " + version() + " (commit " + TALUS_COMMIT + ")"; }
 
   bool is_root() { return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0; }
+
+  void say(const std::string &text)
+  {
+    if (is_root())
+      std::cout << text;
+  }
 
   /** Runs and single points have files of their own. */
   void check_kind(const Parameters &parameters, const CommandLine &command_line)
@@ -59,6 +66,11 @@ namespace
   {
     const auto        simulation = Simulation<dim>::make(parameters, MPI_COMM_WORLD, stage);
     const std::string origin     = program() + ", " + command_line.text;
+    if (command_line.only_checks)
+    {
+      simulation->try_start();
+      return "";
+    }
     if (resume != nullptr)
       simulation->go_on(*resume, Resume::changes(command_line.overrides, "Run/End time"), origin);
     else if (!command_line.prints_parameters)
@@ -144,12 +156,14 @@ int main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, /* max_num_threads = */ 1);
   return exit_status([&]() {
     const CommandLine command_line(argc, argv);
-    if (command_line.wants_help && is_root())
-      std::cout << CommandLine::help();
+    if (command_line.wants_help)
+      say(command_line.topic.empty() ? CommandLine::help() : parameters_on(command_line.topic));
     else if (command_line.wants_version && is_root())
       std::cout << program() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
     else if (command_line.wants_list && is_root())
       list_registered(std::cout);
+    else if (command_line.prints_parameters && command_line.file_name.empty())
+      say(parameters_on(""));
     else if (!command_line.file_name.empty() || !command_line.directory.empty())
       run_file(command_line);
   });

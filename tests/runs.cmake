@@ -209,6 +209,14 @@ foreach(ranks 2 4)
   talus_add_run(checkpoint.balance.mpirun=${ranks} 2 ${CMAKE_CURRENT_SOURCE_DIR}/checkpoint/run.py
     $<TARGET_FILE:talus> ${work}/checkpoint/balance.${ranks} balance ${ranks} ${MPIRUN})
 endforeach()
+# When what is written, and what a run says of itself beforehand.
+foreach(ranks 1 2)
+  foreach(case times expected summary topics)
+    talus_add_run(outputs.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/inputs/outputs.py
+      $<TARGET_FILE:talus> ${work}/outputs/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
+  endforeach()
+endforeach()
+
 # Parts of a run with parameters of their own.
 foreach(ranks 1 2)
   foreach(case column nothing resumed safety wrong)

@@ -24,6 +24,8 @@ namespace Talus
         text.replace(at, 1, "'\\''");
       return is_plain ? word : "'" + text + "'";
     }
+
+    bool is_file(const std::string &word) { return word.size() > 4 && word.compare(word.size() - 4, 4, ".prm") == 0; }
   } // namespace
 
   CommandLine::CommandLine(int argc, char **argv)
@@ -34,7 +36,11 @@ namespace Talus
     {
       const std::string word = argv[i];
       if (word == "--help" || word == "-h")
+      {
         wants_help = true;
+        if (i + 1 < argc && argv[i + 1][0] != '-' && !is_file(argv[i + 1]))
+          topic = argv[++i];
+      }
       else if (word == "--version")
         wants_version = true;
       else if (word == "--list")
@@ -43,6 +49,8 @@ namespace Talus
         prints_parameters = true;
       else if (word == "--element")
         is_element = true;
+      else if (word == "--check")
+        only_checks = true;
       else if (word == "--set")
       {
         AssertThrow(i + 1 < argc, InputError("--set needs \"Section/Entry = value\" after it."));
@@ -64,10 +72,13 @@ namespace Talus
     }
     AssertThrow(directory.empty() || !is_element,
                 InputError("--element has no checkpoints to go on from. Leave out --resume, and give a file."));
+    AssertThrow(!only_checks || (directory.empty() && !is_element && !prints_parameters),
+                InputError("--check looks at the file of a run. Leave out --resume, --element and --parameters."));
     AssertThrow(directory.empty() || (file_name.empty() && !prints_parameters),
                 InputError("--resume takes the parameters from the checkpoint. Leave out the parameter file and "
                            "--parameters; --set may change some entries."));
-    AssertThrow(!file_name.empty() || !directory.empty() || wants_help || wants_version || wants_list,
+    AssertThrow(!file_name.empty() || !directory.empty() || (prints_parameters && !is_element) || wants_help ||
+                  wants_version || wants_list,
                 InputError("No parameter file given. Try talus --help."));
   }
 
@@ -77,8 +88,11 @@ namespace Talus
            "\n"
            "  talus FILE.prm [--set \"Section/Entry = value\"]...   run\n"
            "  talus --resume DIRECTORY [--set ...]...             go on with a run from its last checkpoint\n"
+           "  talus --check FILE.prm [--set ...]...               how many steps, time and memory it takes; no output\n"
            "  talus --element FILE.prm [--set ...]...             take a single point of a material along a path\n"
            "  talus --parameters [--element] FILE.prm             print all entries of the chosen objects, with help\n"
+           "  talus --parameters                                  the same of a file with one object of each kind\n"
+           "  talus --help \"SECTION\" | \"SECTION/OBJECT\"          a part of it: \"Run\", \"Materials/Drucker-Prager\"\n"
            "  talus --list                                        print all kernels, transfers, materials, ...\n"
            "  talus --help | --version\n"
            "\n"

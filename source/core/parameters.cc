@@ -162,7 +162,7 @@ namespace Talus
                      " Known there: " + list + ".");
   }
 
-  void Parameters::parse()
+  void Parameters::enter_values()
   {
     auto &prm = ParameterAcceptor::prm;
     for (const auto &[key, setting] : settings)
@@ -194,6 +194,12 @@ namespace Talus
       AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + shortened(setting.value) +
                                               "' is not a valid value. Give " + describe_pattern(problem) + "."));
     }
+  }
+
+  void Parameters::parse()
+  {
+    enter_values();
+    auto &prm = ParameterAcceptor::prm;
     try
     {
       ParameterAcceptor::parse_all_parameters(prm);

@@ -95,7 +95,7 @@ namespace Talus
     static const std::regex pattern(
       "((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|checkpoint_[0-9]{8,10}\\.h5|"
       "failure_(grid_)?[0-9]{8,10}(\\.rank[0-9]+)?\\.(vtu|csv)|"
-      "((statistics|safety)(_[^/]+)?|probes|element|comparison|load_curve|verification)\\.csv|log\\.txt)(\\.tmp)?");
+      "((statistics|safety)(_[^/]+)?|probes|element|comparison|load_curve|verification)\\.csv|log\\.txt|summary\\.json)(\\.tmp)?");
     return std::regex_match(name, pattern);
   }
 

@@ -68,6 +68,13 @@ namespace Talus
     add_parameter("Final state", with_final_state, "Write the state at the end of the run, whatever the intervals.");
     add_parameter("Statistics interval", statistics_interval,
                   "Steps between two rows of statistics.csv and probes.csv [1].", prm, Patterns::Integer(1));
+    add_parameter("Statistics time interval", row_interval,
+                  "Time between two rows of these tables, beside those by steps [time]; 0: off.", prm,
+                  Patterns::Double(0));
+    add_parameter(
+      "Exact times", is_exact,
+      "Steps end at the times that 'Time interval' and 'Statistics time interval' ask for, so that runs of "
+      "different steps have them in common; false: what is due comes after the first step beyond its time.");
     add_parameter(
       "Particle fields", field_names,
       "Fields of the particles to write, beside id, body and material: stored ones (velocity, stress, ...), "
@@ -84,6 +91,9 @@ namespace Talus
       path.pop_back();
     if (!std::isfinite(time_interval))
       throw EntryError(get_section_name(), "Time interval",
+                       "it must be a finite number. Set it to 0 to switch it off.");
+    if (!std::isfinite(row_interval))
+      throw EntryError(get_section_name(), "Statistics time interval",
                        "it must be a finite number. Set it to 0 to switch it off.");
     next = time_interval > 0 ? 0. : std::numeric_limits<double>::infinity();
   }
@@ -144,6 +154,24 @@ namespace Talus
     if (times.empty())
       return by_time || by_step;
     return (by_step && step % step_interval == 0) || (by_time && time >= next - tolerance * time_interval);
+  }
+
+  template <int dim>
+  bool Output<dim>::is_statistics_due(const double time, const double dt, const unsigned int step) const
+  {
+    const auto n_before = [&](const double t) { return std::floor(t / row_interval + tolerance); };
+    return step % statistics_interval == 0 || (row_interval > 0 && n_before(time) > n_before(time - dt));
+  }
+
+  template <int dim>
+  double Output<dim>::next_stop(const double time) const
+  {
+    double stop = std::numeric_limits<double>::infinity();
+    if (is_exact)
+      for (const double interval : {time_interval, row_interval})
+        if (interval > 0)
+          stop = std::min(stop, (std::floor(time / interval + tolerance) + 1) * interval);
+    return stop;
   }
 
   template <int dim>

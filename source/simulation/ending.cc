@@ -2,6 +2,7 @@
 
 #include <talus/core/command_line.h>
 #include <talus/core/exceptions.h>
+#include <talus/core/json.h>
 
 #include <array>
 #include <filesystem>
@@ -41,12 +42,13 @@ namespace Talus
       note_failure(error);
       throw;
     }
-    log << date() << " ended: "
-        << (is_to_go_on()                                 ? "stage " + stage_name() + " done" :
-            is_finished() && !model.requests.is_stopped() ? "done" :
-                                                            "signal " + std::to_string(model.requests.signal_number()) +
-                                                              " (" + model.requests.signal_name() + ")")
-        << std::endl;
+    const std::string end = is_to_go_on() ? "stage " + stage_name() + " done" :
+                            is_finished() && !model.requests.is_stopped() ?
+                                            "done" :
+                                            "signal " + std::to_string(model.requests.signal_number()) + " (" +
+                                              model.requests.signal_name() + ")";
+    log << date() << " ended: " << end << std::endl;
+    write_summary(end);
   }
 
   template <int dim>
@@ -56,9 +58,37 @@ namespace Talus
     const bool        is_input = dynamic_cast<const InputError *>(&error) != nullptr;
     const std::string text = date() + " ended: " + (is_input ? "wrong input. " : "failed. ") + message_of(error) + '\n';
     if (log.is_open())
+    {
       log << text << std::flush;
+      write_summary(is_input ? "wrong input" : "failed", message_of(error));
+    }
     else if (is_alone && progress) // the first rank knows nothing of it, and will be ended
       std::ofstream(output.directory() + "/log.txt", std::ios::app) << text;
+  }
+
+  template <int dim>
+  void Simulation<dim>::write_summary(const std::string &end, const std::string &message) const
+  {
+    if (!log.is_open()) // on the first rank alone
+      return;
+    JsonObject statistics, all;
+    const auto row = table.row();
+    for (unsigned int c = 0; c < row.size(); ++c)
+      statistics.add(table.columns()[c].name + " [" + table.columns()[c].unit + "]", row[c]);
+    all.add("program", "talus " + version());
+    all.add("origin", origin);
+    all.add("ended", end);
+    all.add("message", message);
+    all.add("date", date());
+    all.add("ranks", Utilities::MPI::n_mpi_processes(communicator));
+    all.add("particles", static_cast<double>(model.particles.n_global));
+    all.add("steps", now.step);
+    all.add("time [time]", now.time);
+    all.add("wall time [s]", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    all.add("warnings", parameters.warnings());
+    all.add("statistics", statistics);
+    // A run that has ended is not made to fail by its summary.
+    std::ofstream(output.directory() + "/summary.json") << all.text() << std::endl;
   }
 
   template <int dim>
@@ -115,6 +145,7 @@ namespace Talus
   template void        Simulation<dim>::start_log(const bool);                                                         \
   template void        Simulation<dim>::to_the_end(const std::function<void()> &);                                     \
   template void        Simulation<dim>::note_failure(const std::exception &);                                          \
+  template void        Simulation<dim>::write_summary(const std::string &, const std::string &) const;                 \
   template void        Simulation<dim>::step();                                                                        \
   template std::string Simulation<dim>::write_failure(const bool);                                                     \
   template void        Simulation<dim>::stop();

@@ -65,6 +65,8 @@ namespace Talus
     return text.str();
   }
 
+  double Resources::resident() const { return Utilities::MPI::sum(resident_memory().first, communicator); }
+
   std::string Resources::memory(const double n_particles) const
   {
     const auto   here = resident_memory();

@@ -22,8 +22,8 @@ namespace Talus
     if (stages.empty())
       add_parameter("End time", end_time, "The run ends at this time [time].", prm, Patterns::Double());
     else
-      parameters.refuse(EntryError("/Run", "End time",
-                                   "the run has stages, and ends after their durations. Remove the entry."));
+      parameters.refuse(
+        EntryError("/Run", "End time", "the run has stages, and ends after their durations. Remove the entry."));
     add_parameter("Number of steps", max_steps,
                   "The run ends after this many steps if the end time is later; 0: no limit.", prm,
                   Patterns::Integer(0));
@@ -110,9 +110,16 @@ namespace Talus
   template <int dim>
   void Simulation<dim>::advance()
   {
-    now.dt             = stepper->step_size(model, report);
-    const double stop  = references.next_stop(now.time, end_time);
-    const bool   stops = now.time + now.dt >= stop * (1 - 1e-12);
+    now.dt            = stepper->step_size(model, report);
+    double       stop = references.next_stop(now.time, end_time);
+    const double next = output.next_stop(now.time);
+    if (next < stop)
+    {
+      stop = next;
+      if (now.time + now.dt < stop && now.time + 2 * now.dt > stop)
+        now.dt = 0.5 * (stop - now.time); // two equal steps, and not a whole and a tiny one
+    }
+    const bool stops = now.time + now.dt >= stop * (1 - 1e-12);
     if (stops)
       now.dt = stop - now.time;
     report   = stepper->advance(model, report, now.time, now.dt);
@@ -131,7 +138,8 @@ namespace Talus
                          ": some were lost or counted twice between ranks. Lower the Courant number."));
     if (!report.news.empty())
     {
-      progress->end_line();
+      if (progress)
+        progress->end_line();
       say(report.news + now.text() + ".\n");
     }
     energy.check(model, report, now);
@@ -157,7 +165,7 @@ namespace Talus
   {
     const Timing::Scope scope(timing, output_section);
     references.accumulate(now, end_time, model);
-    if (output.is_statistics_due(now.step) || is_finished())
+    if (output.is_statistics_due(now.time, now.dt, now.step) || is_finished())
     {
       totals = current_totals();
       fracture.measure(model);

@@ -16,7 +16,7 @@ import compare  # noqa: E402
 import program  # noqa: E402
 from cases import all_of  # noqa: E402
 
-NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|parameters\.prm")
+NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|summary\.json|parameters\.prm")
 OUTPUT = {"Output/CSV": "true", "Output/Grid": "true", "Output/Step interval": 7, "Output/Statistics interval": 2,
           "Checkpoints/Clock interval": 0}
 

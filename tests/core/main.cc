@@ -14,6 +14,7 @@ void reduction();
 void traffic();
 void table();
 void archive();
+void json();
 void text_files();
 void registry();
 void simd();
@@ -23,7 +24,8 @@ void eigen_systems();
 int main(int argc, char **argv)
 {
   return Test::run(argc, argv,
-                   {{"parameters: syntax errors", syntax_errors},
+                   {{"json", json},
+                    {"parameters: syntax errors", syntax_errors},
                     {"parameters: value errors", value_errors},
                     {"parameters: unknown entries", unknown_entries},
                     {"parameters: overrides", overrides},

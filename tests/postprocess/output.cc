@@ -96,8 +96,25 @@ void test_is_due()
 
   Fixture<2> run("set Time interval = 0.25\nset Statistics interval = 3\n");
   check("the next output is the first", run.output.next_time(), 1e-15);
-  check_true("statistics every 3 steps",
-             run.output.is_statistics_due(0) && !run.output.is_statistics_due(2) && run.output.is_statistics_due(3));
+  const auto rows = [](const Fixture<2> &run) {
+    std::string found;
+    for (unsigned int n = 0; n <= 12; ++n)
+      if (run.output.is_statistics_due(0.1 * n, n > 0 ? 0.1 : 0., n))
+        found += std::to_string(n) + ' ';
+    return found;
+  };
+  check_true("statistics every 3 steps", rows(run) == "0 3 6 9 12 ");
+  const Fixture<2> by_time("set Statistics interval = 1000\nset Statistics time interval = 0.25\n");
+  check_true("statistics every 0.25: " + rows(by_time), rows(by_time) == "0 3 5 8 10 ");
+  check_true("steps end where they will", std::isinf(by_time.output.next_stop(0.1)));
+  const Fixture<2> exact("set Time interval = 0.4\nset Statistics time interval = 0.25\nset Exact times = true\n");
+  std::string      stops;
+  for (double t = 0; t < 0.9;)
+  {
+    t = exact.output.next_stop(t);
+    stops += std::to_string(static_cast<int>(std::round(100 * t))) + ' ';
+  }
+  check_true("steps end at " + stops, stops == "25 40 50 75 80 100 ");
 }
 
 namespace

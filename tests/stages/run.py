@@ -14,7 +14,7 @@ from cases import all_of  # noqa: E402
 
 G, HEIGHT, DENSITY, LOAD, FILL = 10, 3, 2000, 3e4, 0.5 * 1600
 MODULUS = 1e8 * 0.7 / (1.3 * 0.4)  # of a column that cannot widen
-NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|parameters.*\.prm")
+NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|summary\.json|parameters.*\.prm")
 
 
 def particles_of(directory, number):

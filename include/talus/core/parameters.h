@@ -117,6 +117,9 @@ namespace Talus
     /** Checks every entry against what the objects declared, and sets their members. */
     void parse();
 
+    /** The first half of it: checks them, so that print() has them. */
+    void enter_values();
+
     /** The message of an error, with the place where its entry was set. */
     std::string locate(const EntryError &error) const;
 

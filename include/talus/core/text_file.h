@@ -27,8 +27,8 @@ namespace Talus
   /** Why a file cannot be read, or nothing; `name` is what a message calls it: "the mesh 'a.msh'". */
   std::string why_not_read(const std::string &path, const std::string &name);
   /**
-   * Whether all of `word` is a number, infinite or NaN included, which it then is; exponents may be Fortran's, D for E, or
-   * nothing at all before three digits.
+   * Whether all of `word` is a number, infinite or NaN included, which it then is; exponents may be Fortran's, D for E,
+   * or nothing at all before three digits.
    */
   bool read_number(const std::string &word, double &number);
 } // namespace Talus

@@ -50,7 +50,7 @@ namespace Talus
      */
     bool is_due(const double time, const unsigned int step) const;
 
-    /** Time of the next output by `Time interval`; infinite when that is off. A step may end there [time]. */
+    /** Time of the next output by `Time interval`; infinite when that is off [time]. */
     double next_time() const { return next; }
 
     /** False once `step` is written; for an output at the end of a run. */
@@ -70,7 +70,12 @@ namespace Talus
     /** True when the state at the end of the run has yet to be written. */
     bool is_due_at_end(const unsigned int step) const { return with_final_state && !is_written(step); }
 
-    bool is_statistics_due(const unsigned int step) const { return step % statistics_interval == 0; }
+    /** Whether the tables get a row after a step of size `dt` that has led to `time`. */
+    bool is_statistics_due(const double time, const double dt, const unsigned int step) const;
+
+    /** The first time after `time` at which a step has to end for outputs or rows to be at their times; infinite if
+     * none has. */
+    double next_stop(const double time) const;
 
     /** Without a slash at its end. */
     const std::string &directory() const { return path; }
@@ -85,6 +90,8 @@ namespace Talus
     std::string              path                = "output";
     bool                     overwrite           = false;
     double                   time_interval       = 0; // [time]
+    double                   row_interval        = 0; // of the statistics [time]
+    bool                     is_exact            = false;
     unsigned int             step_interval       = 0;
     unsigned int             statistics_interval = 1;
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};

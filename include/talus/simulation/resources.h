@@ -22,6 +22,9 @@ namespace Talus
     /** Two lines on what ranks do in a step and send; empty on one rank. Collective. */
     std::string traffic(const unsigned int n_steps) const;
 
+    /** Resident memory of all ranks, what libraries take included [byte]. Collective. */
+    double resident() const;
+
     /** A line on what a particle takes, the grid's and all other memory included. Collective. */
     std::string memory(const double n_particles) const;
 

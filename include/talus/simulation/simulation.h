@@ -16,6 +16,7 @@
 #include <talus/steppers/fracture_watch.h>
 #include <talus/steppers/stepper.h>
 
+#include <chrono>
 #include <fstream>
 #include <functional>
 
@@ -37,6 +38,10 @@ namespace Talus
 
     /** `origin`: of program and command line, for the log. */
     void run(const std::string &origin = "");
+
+    /** Sets up and takes a few steps, without an output: says how many steps, how much time and memory the run will
+     * take. */
+    void try_start();
 
     /** The same from a checkpoint on, which may be the end of the stage before; `is_longer`: to another end time. */
     void go_on(const Resume &resume, const bool is_longer, const std::string &origin = "");
@@ -110,6 +115,9 @@ namespace Talus
     void to_the_end(const std::function<void()> &work);
     void note_failure(const std::exception &error);
 
+    /** Writes summary.json, for other programs: how it ended, and the last row of the statistics. */
+    void write_summary(const std::string &end, const std::string &message = "") const;
+
     /** Writes the state of a step that has failed: what the message says of it. `is_whole`: the step was at its end. */
     std::string write_failure(const bool is_whole);
 
@@ -125,15 +133,16 @@ namespace Talus
     static std::string warning_line(const std::string &text) { return "warning: " + shortened(text, 1000) + '\n'; }
     std::string        summary() const;
 
-    const Communicator communicator;
-    Parameters        &parameters;
-    Resources          resources;
-    Timing             timing;
-    unsigned int       output_section, reference_section, checkpoint_section; // of it
-    std::ofstream      log;
-    std::string        origin;           // of the run, for the log
-    unsigned int       n_told   = 0;     // of the warnings before the first step
-    bool               is_alone = false; // in an error that other ranks have not met
+    const Communicator                    communicator;
+    Parameters                           &parameters;
+    Resources                             resources;
+    Timing                                timing;
+    unsigned int                          output_section, reference_section, checkpoint_section; // of it
+    std::ofstream                         log;
+    std::string                           origin; // of the run, for the log
+    std::chrono::steady_clock::time_point start    = std::chrono::steady_clock::now();
+    unsigned int                          n_told   = 0;     // of the warnings before the first step
+    bool                                  is_alone = false; // in an error that other ranks have not met
 
     Model<dim>                    model;
     std::unique_ptr<Stepper<dim>> stepper;
