@@ -2,11 +2,15 @@
 import csv
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
 
 from copies import Copies
+
+
+NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|summary\.json|parameters.*\.prm")
 
 
 class Runs:
@@ -52,6 +56,22 @@ class Runs:
         is_good = abs(error) <= bound
         self.n_failed += not is_good
         print(f"{'  pass' if is_good else '  FAIL'} {name}: error / bound = {abs(error) / bound:.3g} (bound {bound:g})")
+
+
+def files(directory):
+    return sorted(name for name in os.listdir(directory) if not NOT_COMPARED.fullmatch(name))
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return re.sub(rb"#This file was generated.*?-->|<!--.*?-->", b"", file.read(), flags=re.DOTALL)  # date and time
+
+
+def differences(directory, other):
+    """Names of files that are not in both, or whose bytes differ."""
+    names, others = set(files(directory)), set(files(other))
+    return sorted(names ^ others) + sorted(name for name in names & others if content(os.path.join(directory, name)) !=
+                                           content(os.path.join(other, name)))
 
 
 def columns_of(path, with_units=False):

@@ -61,8 +61,9 @@ namespace Talus
         result.set(material, "Strength reduction", value.str(), "stage '" + stages.name(stage) + "'");
       }
     if (!is_any)
-      throw EntryError(section, "Strength reduction",
-                       "no material of the run has a strength. Take a plastic one, or remove the stage.");
+      throw InputError(
+        result.locate(EntryError(section, "Strength reduction",
+                                 "no material of the run has a strength. Take a plastic one, or remove the stage.")));
     result.set("/Output", "Directory", begin.directory + "/" + stages.name(stage) + "_" + text_of(factor), "");
     result.set("/Output", "Overwrite", "true", "");
     return result;
@@ -110,12 +111,22 @@ namespace Talus
   template <int dim>
   bool SafetySearch<dim>::run()
   {
-    const Parameters of_stage = stages.parameters(stage);
-    const auto       range    = Utilities::string_to_double(
-               Utilities::split_string_list(of_stage.value("/Stages/" + stages.name(stage), "Strength reduction", "")));
-    const double tolerance =
-      Utilities::string_to_double(of_stage.value("/Stages/" + stages.name(stage), "Tolerance", "0.005"));
-    double     low = range.at(0), high = range.at(1);
+    double low, high, tolerance;
+    {
+      // Also looks at the entries, which may have been set for a run that goes on.
+      Parameters of_stage = stages.parameters(stage);
+      try
+      {
+        const auto simulation = Simulation<dim>::make(of_stage, communicator, stage);
+        low                   = simulation->stage().factors[0];
+        high                  = simulation->stage().factors[1];
+        tolerance             = simulation->stage().tolerance;
+      }
+      catch (const EntryError &error)
+      {
+        throw InputError(of_stage.locate(error));
+      }
+    }
     const bool stands = stands_with(low);
     AssertThrow(
       stands || is_stopped,

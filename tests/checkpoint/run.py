@@ -15,8 +15,8 @@ sys.path[:0] = [os.path.join(ROOT, "tests"), os.path.join(ROOT, "tests", "compar
 import compare  # noqa: E402
 import program  # noqa: E402
 from cases import all_of  # noqa: E402
+from program import differences, files  # noqa: E402
 
-NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|summary\.json|parameters\.prm")
 OUTPUT = {"Output/CSV": "true", "Output/Grid": "true", "Output/Step interval": 7, "Output/Statistics interval": 2,
           "Checkpoints/Clock interval": 0}
 
@@ -36,22 +36,6 @@ def resume(runs, directory, *settings, mpirun=None):
     for setting in settings:
         arguments += ["--set", setting]
     return runs.start(arguments, mpirun)
-
-
-def files(directory):
-    return sorted(name for name in os.listdir(directory) if not NOT_COMPARED.fullmatch(name))
-
-
-def content(path):
-    with open(path, "rb") as file:
-        return re.sub(rb"#This file was generated.*?-->|<!--.*?-->", b"", file.read(), flags=re.DOTALL)  # date and time
-
-
-def differences(directory, other):
-    """Names of files that are not in both, or whose bytes differ."""
-    names, others = set(files(directory)), set(files(other))
-    return sorted(names ^ others) + sorted(name for name in names & others if content(os.path.join(directory, name)) !=
-                                           content(os.path.join(other, name)))
 
 
 def report(runs, name, problems):

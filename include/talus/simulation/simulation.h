@@ -57,6 +57,9 @@ namespace Talus
     /** Runs a stage that is a search from its begin, with the parameters of a trial and an output of its own. */
     Trial try_out(const Resume &begin, const std::string &origin);
 
+    /** That of a run in stages. */
+    const Stage &stage() const { return *stages[stage_number]; }
+
     /** In a trial: how far the watched particle has moved [length]. */
     double moved() const { return trial.moved; }
 
