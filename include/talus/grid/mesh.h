@@ -69,11 +69,11 @@ namespace Talus
      */
     struct Mirror
     {
-      unsigned int      axis;
-      bool              is_upper; // the mesh lies below it
-      double            position; // [length]
-      bool              slips;
-      std::vector<char> is_on = {}; // whether a node lies on it, where the mesh ends there
+      unsigned int      axis     = 0;
+      bool              is_upper = false; // the mesh lies below it
+      double            position = 0;     // [length]
+      bool              slips    = false;
+      std::vector<char> is_on    = {}; // whether a node lies on it, where the mesh ends there
     };
 
     /**
