@@ -21,7 +21,7 @@ foreach(group command_line element entries numbers functions bodies points surro
     run kernel grid materials more_bodies conditions results files directories checkpoints)
   # How several ranks end is the same for what is read alike.
   set(n_ranks 1)
-  if(NOT group MATCHES "run|kernel|grid|materials|more_bodies|conditions|results")
+  if(NOT group MATCHES "run|kernel|grid|materials|more_bodies|conditions|results|element|entries|numbers|functions")
     set(n_ranks 1 2)
   endif()
   foreach(ranks ${n_ranks})
