@@ -11,7 +11,7 @@ _talus_entries() {  # of a parameter file, one a line; $3 is --element for that 
 _talus() {
   local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} file line element=
   COMPREPLY=()
-  if [[ $previous == --set ]]; then
+  if [[ $previous == --set || $previous == --sweep ]]; then
     for file in "${COMP_WORDS[@]}"; do [[ $file == *.prm ]] && break; done
     [[ -f $file ]] || return
     [[ " ${COMP_WORDS[*]} " == *" --element "* ]] && element=--element
@@ -23,7 +23,7 @@ _talus() {
   elif [[ $previous == --resume ]]; then
     mapfile -t COMPREPLY < <(compgen -d -- "$word")
   elif [[ $word == -* ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "--set --resume --check --element --parameters --list --help --version" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "--set --sweep --resume --check --element --parameters --list --help --version" -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -X '!*.prm' -- "$word"; compgen -d -S / -- "$word")
     compopt -o nospace

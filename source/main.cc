@@ -1,9 +1,12 @@
 #include <talus/core/command_line.h>
 #include <talus/core/exceptions.h>
+#include <talus/core/libraries.h>
 #include <talus/core/parameters.h>
+#include <talus/core/requests.h>
 #include <talus/simulation/element.h>
 #include <talus/simulation/help_topics.h>
 #include <talus/simulation/list.h>
+#include <talus/simulation/parameter_sweep.h>
 #include <talus/simulation/resume.h>
 #include <talus/simulation/safety_search.h>
 #include <talus/simulation/simulation.h>
@@ -142,6 +145,7 @@ namespace
     Parameters parameters =
       resume ? resume->parameters(command_line.overrides) : Parameters(command_line.file_name, command_line.overrides);
     check_kind(parameters, command_line);
+    with_parameters(parameters, [](const Parameters &all) { load_libraries(all); });
     if (command_line.is_element)
       with_parameters(parameters, [&](Parameters &element) { run_element(element, command_line); });
     else if (parameters.value("", "Dimension", "2") == "2")
@@ -149,14 +153,47 @@ namespace
     else
       run_stages<3>(parameters, command_line, resume);
   }
+  /** Runs one after the other; the greatest exit status of them. */
+  int run_sweep(const CommandLine &command_line)
+  {
+    ParameterSweep    sweep(command_line.sweeps);
+    const std::string directory =
+      Parameters(command_line.file_name, command_line.overrides).value("/Output", "Directory", "output");
+    int worst = 0;
+    for (unsigned int number = 0; number < sweep.size(); ++number)
+    {
+      CommandLine       one       = command_line;
+      const auto        overrides = sweep.overrides(number);
+      const std::string place     = directory + "/" + sweep.name(number);
+      one.overrides.insert(one.overrides.end(), overrides.begin(), overrides.end());
+      one.overrides.push_back("Output/Directory = " + place);
+      std::string text = "Run " + sweep.name(number) + " of " + std::to_string(sweep.size());
+      for (const auto &entry : overrides)
+        text += ", " + entry;
+      say(text + '\n');
+      const int status = exit_status([&] { run_file(one); });
+      worst            = std::max(worst, status);
+      if (is_root() && !command_line.only_checks)
+        sweep.note(directory, number, status);
+      if (dealii::Utilities::MPI::logical_or(Requests::is_signal_noted(), MPI_COMM_WORLD))
+      {
+        say("The sweep ends here. Go on with the run that was stopped by: talus --resume " + place + '\n');
+        break;
+      }
+    }
+    return worst;
+  }
 } // namespace
 
 int main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, /* max_num_threads = */ 1);
-  return exit_status([&]() {
+  int                                      worst  = 0; // of a sweep
+  const int                                status = exit_status([&]() {
     const CommandLine command_line(argc, argv);
-    if (command_line.wants_help)
+    if (!command_line.sweeps.empty() && !command_line.wants_help)
+      worst = run_sweep(command_line);
+    else if (command_line.wants_help)
       say(command_line.topic.empty() ? CommandLine::help() : parameters_on(command_line.topic));
     else if (command_line.wants_version && is_root())
       std::cout << program() << " on deal.II " << DEAL_II_PACKAGE_VERSION << '\n';
@@ -167,4 +204,5 @@ int main(int argc, char **argv)
     else if (!command_line.file_name.empty() || !command_line.directory.empty())
       run_file(command_line);
   });
+  return std::max(status, worst);
 }

@@ -109,6 +109,8 @@ talus_compare(walls_2d ghost_cubic_FLIP "${ranks}" "Kernel/Type = cubic B-spline
 talus_compare(walls_2d ghost_uGIMP_blend "1;4" "Kernel/Type = uGIMP" "Transfer/Type = blend" "Run/Courant number = 0.2")
 talus_compare(walls_2d ghost_MUSL "1;2" "Run/MUSL = true")
 talus_compare(walls_3d ghost_TPIC "${ranks}" "Transfer/Type = TPIC")
+talus_compare(bed_2d TPIC "${ranks}")
+talus_compare(bed_2d MUSL "1;2" "Run/MUSL = true" "Transfer/Type = FLIP" "Kernel/Boundary treatment = none")
 talus_compare(pool_3d ghost_TPIC "${ranks}" "Kernel/Boundary treatment = ghost nodes")
 # Writing output must not change the run.
 talus_compare(disk_2d output "1;2, Output/Step interval = 7, Output/CSV = true, Output/Grid = true"
@@ -177,7 +179,7 @@ foreach(case vibration ring)
 endforeach()
 
 # Friction, damping and loads against closed forms.
-foreach(case incline_2d incline_3d account damping energy bar_2d bar_3d pressure_2d pressure_3d wave_2d wave_3d layer)
+foreach(case incline_2d incline_3d bed_2d bed_3d account damping energy bar_2d bar_3d pressure_2d pressure_3d wave_2d wave_3d layer)
   foreach(ranks 1 2)
     talus_add_run(loads.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/loads/run.py
       $<TARGET_FILE:talus> ${work}/loads/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
@@ -211,7 +213,7 @@ foreach(ranks 2 4)
 endforeach()
 # When what is written, and what a run says of itself beforehand.
 foreach(ranks 1 2)
-  foreach(case times expected summary)
+  foreach(case times expected summary sweep)
     talus_add_run(outputs.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/inputs/outputs.py
       $<TARGET_FILE:talus> ${work}/outputs/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()
@@ -221,7 +223,7 @@ talus_add_run(outputs.topics 1 ${CMAKE_CURRENT_SOURCE_DIR}/inputs/outputs.py
 
 # Parts of a run with parameters of their own.
 foreach(ranks 1 2)
-  foreach(case column nothing resumed safety wrong)
+  foreach(case column nothing resets resumed safety wrong)
     talus_add_run(stages.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/stages/run.py
       $<TARGET_FILE:talus> ${work}/stages/${case}.${ranks} ${case} ${ranks} ${MPIRUN})
   endforeach()

@@ -8,6 +8,7 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 AXES = "xyz"
+TENSORS = {6: ("xx", "yy", "zz", "xy", "yz", "xz"), 9: tuple(a + b for a in AXES for b in AXES)}  # by number of components
 
 
 class Particles:
@@ -17,7 +18,10 @@ class Particles:
         import meshio  # here, as tables need no reader of .vtu files
         mesh = meshio.read(path)
         self.directory = pathlib.Path(path).resolve().parent
-        self.time, self.places, self.fields = time, mesh.points, mesh.point_data
+        self.time, self.places, self.fields = time, mesh.points, {}
+        for name, values in mesh.point_data.items():
+            components = TENSORS.get(values.shape[1] if values.ndim == 2 else 1)
+            self.fields.update({f"{name}_{c}": values[:, k] for k, c in enumerate(components)} if components else {name: values})
         self.dim = 2 if np.all(self.places[:, 2] == 0) else 3
 
     def field(self, name):

@@ -16,7 +16,7 @@ PAPERS = (
      ("kernels", "shear", "footing", "disk", "dam", "column")),
     ("Tran, Solowski, Berzins & Guilkey (2019): CPLS", ("imls", "vibration", "ring", "vortex", "disks", "wall")),
     ("Cao et al. (2024): UMLS", ("bar", "umls-disks", "cantilever", "wavy", "slope", "container", "apic")),
-    ("Beside the papers", ("shear-3d", "column-3d", "martin-moyce", "taylor", "slope-2d", "strength-reduction", "bearing")))
+    ("Beside the papers", ("shear-3d", "column-3d", "martin-moyce", "taylor", "slope-2d", "strength-reduction", "bearing", "silo")))
 QUICK = ("kernels", "imls", "disk", "shear-3d", "martin-moyce", "apic")
 STYLE = """
 body { font: 15px/1.5 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222; }

@@ -1,4 +1,4 @@
-#include <talus/boundary/condition.h>
+#include <talus/boundary/boundary.h>
 
 namespace Talus
 {
@@ -36,6 +36,26 @@ namespace Talus
     held.clear(grid.fields.n_owned());
     damping.apply(walls.plain_nodes, held, grid);
     damping.work += walls.damping_work;
+    if (dt > 0)
+      meet_obstacles(time, dt, &walls, grid);
+  }
+
+  template <int dim>
+  void Boundary<dim>::meet_obstacles(const double time, const double dt, Walls<dim> *walls, Grid<dim> &grid,
+                                     const bool is_repeated)
+  {
+    if (obstacles.empty())
+      return;
+    if (walls != nullptr)
+    {
+      walls->carry_masses();
+      for (const auto &node : prescribed.nodes)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (node.holder[c] != Prescribed<dim>::nobody)
+            held.hold(node.node, c);
+    }
+    for (auto &obstacle : obstacles)
+      obstacle->apply(time, dt, held, walls, grid, is_repeated);
   }
 
   template <int dim>
@@ -60,6 +80,7 @@ namespace Talus
       for (auto &condition : conditions)
         condition->apply(time, dt, grid, held);
     }
+    meet_obstacles(time, dt, walls.has_ghosts() ? &walls : nullptr, grid, /* is_repeated = */ true);
     damping                    = before;
     grid.fields.mirrored_force = mirrored_force;
     for (unsigned int c = 0; c < conditions.size(); ++c)
@@ -100,6 +121,8 @@ namespace Talus
       table.add("reaction " + names[c], "force", conditions[c]->reaction);
     for (unsigned int c = 0; c < conditions.size(); ++c)
       table.add("nodal force " + names[c], "force", conditions[c]->nodal_force);
+    for (const auto &obstacle : obstacles)
+      obstacle->add_to(table);
   }
 
   template class Boundary<2>;

@@ -1,10 +1,8 @@
 #include <talus/boundary/condition.h>
+#include <talus/boundary/friction_accounts.h>
 #include <talus/core/exceptions.h>
 #include <talus/core/function.h>
 #include <talus/core/registry.h>
-
-#include <map>
-#include <unordered_map>
 
 namespace Talus
 {
@@ -153,41 +151,18 @@ namespace Talus
       void keep(const unsigned int node, const unsigned int axis,
                 const typename Prescribed<dim>::Contact &contact) override
       {
-        next[std::size_t{node} * dim + axis] = {{contact.account, contact.mean}};
+        accounts.keep(node, axis, {{contact.account, contact.mean}});
       }
 
-      /** Accounts by the places of their nodes, which are the same on any number of ranks. */
       void serialize(Archive &archive, const Grid<dim> &grid) override
       {
-        std::vector<double> numbers; // position, axis, account and mean of each
-        for (const auto &[key, account] : next.empty() ? accounts : next)
-        {
-          const Point<dim> x = grid.node_position(key / dim);
-          numbers.insert(numbers.end(), x.begin_raw(), x.end_raw());
-          numbers.insert(numbers.end(), {static_cast<double>(key % dim), account[0], account[1]});
-        }
-        archive.of_rank("accounts", numbers);
-        if (!archive.is_reading())
-          return;
-        std::map<std::vector<double>, unsigned int> nodes;
+        std::vector<const std::vector<unsigned int> *> nodes;
         for (const auto &list : this->owned_nodes())
-          for (const unsigned int i : list)
-          {
-            const Point<dim> x                  = grid.node_position(i);
-            nodes[{x.begin_raw(), x.end_raw()}] = i;
-          }
-        forget();
-        for (unsigned int k = 0; k + dim + 3 <= numbers.size(); k += dim + 3)
-          if (const auto node = nodes.find({&numbers[k], &numbers[k] + dim}); node != nodes.end())
-            accounts[std::size_t{node->second} * dim + static_cast<unsigned int>(numbers[k + dim])] = {
-              {numbers[k + dim + 1], numbers[k + dim + 2]}};
+          nodes.push_back(&list);
+        accounts.serialize(archive, grid, nodes);
       }
 
-      void forget() override
-      {
-        accounts.clear();
-        next.clear();
-      }
+      void forget() override { accounts.forget(); }
 
       void parse_parameters(ParameterHandler &prm) override
       {
@@ -229,11 +204,7 @@ namespace Talus
       void prescribe(const double time, Grid<dim> &grid) override
       {
         Tensor<1, dim> v_wall = wall.value({}, time);
-        if (!next.empty()) // who is not near any more has none
-        {
-          accounts.swap(next);
-          next.clear();
-        }
+        accounts.begin_step();
         for (unsigned int f = 0; f < this->faces.size(); ++f)
         {
           Tensor<1, dim> n;
@@ -250,10 +221,10 @@ namespace Talus
             const unsigned int axis    = this->faces[f] / 2;
             auto              &contact = this->prescribed->press(i, axis, n[axis], mu, v_wall);
             contact.account_time       = account_time;
-            if (const auto at = accounts.find(std::size_t{i} * dim + axis); at != accounts.end())
+            if (const auto *account = accounts.of(i, axis))
             {
-              contact.account = at->second[0];
-              contact.mean    = at->second[1];
+              contact.account = (*account)[0];
+              contact.mean    = (*account)[1];
             }
           }
         }
@@ -283,12 +254,10 @@ namespace Talus
           this->set(i, d, v_wall[d] + slip[d]);
       }
 
-      ParsedVector<dim> wall;
-      std::string       wall_text;
-      double            mu = 0, account_time = 0;
-
-      // Accounts and means of nodes and axes [momentum].
-      std::unordered_map<std::size_t, std::array<double, 2>> accounts, next;
+      ParsedVector<dim>     wall;
+      std::string           wall_text;
+      double                mu = 0, account_time = 0;
+      FrictionAccounts<dim> accounts;
     };
 
     const RegisterDimensions<Condition, Velocity> velocity("velocity", "velocity as a function of place and time");

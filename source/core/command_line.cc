@@ -56,6 +56,11 @@ namespace Talus
         AssertThrow(i + 1 < argc, InputError("--set needs \"Section/Entry = value\" after it."));
         overrides.push_back(argv[++i]);
       }
+      else if (word == "--sweep")
+      {
+        AssertThrow(i + 1 < argc, InputError("--sweep needs \"Section/Entry = value | value\" after it."));
+        sweeps.push_back(argv[++i]);
+      }
       else if (word == "--resume")
       {
         AssertThrow(i + 1 < argc, InputError("--resume needs the directory of the run that is to go on after it."));
@@ -72,6 +77,8 @@ namespace Talus
     }
     AssertThrow(directory.empty() || !is_element,
                 InputError("--element has no checkpoints to go on from. Leave out --resume, and give a file."));
+    AssertThrow(sweeps.empty() || (!file_name.empty() && !prints_parameters),
+                InputError("--sweep makes runs of a parameter file: give one, and leave out --resume and --parameters."));
     AssertThrow(!only_checks || (directory.empty() && !is_element && !prints_parameters),
                 InputError("--check looks at the file of a run. Leave out --resume, --element and --parameters."));
     AssertThrow(directory.empty() || (file_name.empty() && !prints_parameters),
@@ -87,6 +94,7 @@ namespace Talus
     return "Talus: the material point method on deal.II\n"
            "\n"
            "  talus FILE.prm [--set \"Section/Entry = value\"]...   run\n"
+           "  talus --sweep \"Section/Entry = a | b\"... FILE.prm   a run for each combination, in numbered directories\n"
            "  talus --resume DIRECTORY [--set ...]...             go on with a run from its last checkpoint\n"
            "  talus --check FILE.prm [--set ...]...               how many steps, time and memory it takes; no output\n"
            "  talus --element FILE.prm [--set ...]...             take a single point of a material along a path\n"

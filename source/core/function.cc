@@ -185,6 +185,37 @@ namespace Talus
     return value != 0;
   }
 
+  template <int dim>
+  void ParsedScalar<dim>::initialize(const std::string &expression, const std::string &section,
+                                     const std::string &entry)
+  {
+    this->expression = expression;
+    this->section    = section;
+    this->entry      = entry;
+    if (expression.find(';') != std::string::npos)
+      throw EntryError(section, entry, "it is one number: give one formula, without ';'.");
+    std::string of_components = expression;
+    for (unsigned int d = 1; d < dim; ++d)
+      of_components += ';' + expression;
+    formula.initialize(of_components, section, entry);
+  }
+
+  template <int dim>
+  double ParsedScalar<dim>::value(const Point<dim> &x, const double time) const
+  {
+    const double value = formula.component(x, time, 0);
+    if (!std::isfinite(value))
+    {
+      std::ostringstream text;
+      text << "the formula '" << shortened(expression) << "' has no finite value at " << to_text<dim>(x)
+           << ", t = " << time << ". Correct it, so that it is defined everywhere and up to the end of the run.";
+      throw EntryError(section, entry, text.str());
+    }
+    return value;
+  }
+
+  template class ParsedScalar<2>;
+  template class ParsedScalar<3>;
   template class ParsedCondition<2>;
   template class ParsedCondition<3>;
   template class ParsedVector<2>;

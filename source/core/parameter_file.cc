@@ -148,13 +148,24 @@ namespace Talus
         others += (others.empty() ? "" : ", ") + value(section, "Names", "") + ", " + setting.value;
       }
     for (unsigned int s = 0; s < stages.size(); ++s)
+    {
+      // Another law does not read what was said of the one before.
+      for (const auto &key : changed_by(stages[s]))
+        if (const std::string section = parent(key) + "/"; s < n && (leaf(key) == "Type" || leaf(key) == "Surface"))
+          for (auto other = result.settings.lower_bound(section);
+               other != result.settings.end() && other->first.compare(0, section.size(), section) == 0; ++other)
+            result.of_others.insert(other->first);
       for (const auto &key : changed_by(stages[s]))
       {
         const std::string of_stage = parameter_key("/Stages/" + stages[s], key);
         result.settings.erase(of_stage);
         if (s < n)
+        {
           result.settings[key] = settings.at(of_stage);
+          result.of_others.erase(key);
+        }
       }
+    }
     return result;
   }
 

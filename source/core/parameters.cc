@@ -189,7 +189,7 @@ namespace Talus
         problem = text.str();
       }
       leave(prm, path);
-      if (!is_known)
+      if (!is_known && of_others.count(key) == 0)
         reject_unknown(key, setting);
       AssertThrow(problem.empty(), InputError(setting.origin + ": " + describe(key) + ": '" + shortened(setting.value) +
                                               "' is not a valid value. Give " + describe_pattern(problem) + "."));

@@ -37,6 +37,8 @@ namespace Talus
       handle(signal, SIG_DFL, 0);
   }
 
+  bool Requests::is_signal_noted() { return noted != 0; }
+
   std::string Requests::signal_name() const
   {
     switch (static_cast<int>(signal))

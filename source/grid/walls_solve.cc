@@ -226,16 +226,43 @@ namespace Talus
     }
   }
 
+  template <int dim>
+  void Walls<dim>::carry_masses()
+  {
+    carried.resize(real_node.size());
+    for (unsigned int c = 0; c < dim; ++c)
+    {
+      for (unsigned int r = 0; r < real_node.size(); ++r)
+        carried[r][c] = mass(r);
+      for (const unsigned int g : ghost_order)
+        for (unsigned int e = rows[c].begin[g]; e < rows[c].begin[g + 1]; ++e)
+          carried[rows[c].entries[e].real][c] += rows[c].entries[e].coefficient * mass(ghost(g));
+    }
+  }
+
+  template <int dim>
+  Tensor<1, dim> Walls<dim>::carried_mass(const unsigned int node, const double mass) const
+  {
+    if (has_ghosts() && position[node] != none)
+      return carried[position[node]];
+    Tensor<1, dim> result;
+    for (unsigned int c = 0; c < dim; ++c)
+      result[c] = mass;
+    return result;
+  }
+
 #define INSTANTIATE(dim)                                                                                               \
-  template void Walls<dim>::solve(Prescribed<dim> &, const double, const double);                                      \
-  template void Walls<dim>::assemble(const unsigned int, const double);                                                \
-  template void Walls<dim>::solve_component(const unsigned int, const double, std::vector<double> &);                  \
-  template void Walls<dim>::assemble_block(const unsigned int, const Block &);                                         \
-  template void Walls<dim>::solve_block(const unsigned int, const unsigned int, std::vector<double> &);                \
-  template void Walls<dim>::damp(const unsigned int, const double);                                                    \
-  template void Walls<dim>::find_rest(const unsigned int, const double);                                               \
-  template void Walls<dim>::write(const unsigned int);                                                                 \
-  template void Walls<dim>::account(Prescribed<dim> &) const;
+  template void           Walls<dim>::solve(Prescribed<dim> &, const double, const double);                            \
+  template void           Walls<dim>::assemble(const unsigned int, const double);                                      \
+  template void           Walls<dim>::solve_component(const unsigned int, const double, std::vector<double> &);        \
+  template void           Walls<dim>::assemble_block(const unsigned int, const Block &);                               \
+  template void           Walls<dim>::solve_block(const unsigned int, const unsigned int, std::vector<double> &);      \
+  template void           Walls<dim>::damp(const unsigned int, const double);                                          \
+  template void           Walls<dim>::find_rest(const unsigned int, const double);                                     \
+  template void           Walls<dim>::write(const unsigned int);                                                       \
+  template void           Walls<dim>::account(Prescribed<dim> &) const;                                                \
+  template void           Walls<dim>::carry_masses();                                                                  \
+  template Tensor<1, dim> Walls<dim>::carried_mass(const unsigned int, const double) const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -175,8 +176,8 @@ namespace Talus
 
   void append_number(std::string &text, const double value)
   {
-    char buffer[32];
-    std::snprintf(buffer, sizeof(buffer), "%.17g", value);
-    text += buffer;
+    char       buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof(buffer), value).ptr;
+    text.append(buffer, end);
   }
 } // namespace Talus

@@ -30,9 +30,13 @@ namespace Talus
       return file && text.find(end) != std::string::npos;
     }
 
+    DataOutBase::VtkFlags vtk_flags(const double time, const unsigned int step)
+    {
+      return {time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed};
+    }
+
     /** Rank after rank: the head, a piece of each, the foot. */
-    template <class DataOut>
-    void write_vtu_file(DataOut &data, const std::string &final_name, const DataOutBase::VtkFlags &flags,
+    void write_vtu_file(const std::string &piece, const std::string &final_name, const DataOutBase::VtkFlags &flags,
                         MPI_Comm communicator)
     {
       const std::string  temporary = final_name + ".tmp";
@@ -43,8 +47,6 @@ namespace Talus
         DataOutBase::write_vtu_header(head, flags);
       if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
         DataOutBase::write_vtu_footer(foot);
-      const std::string piece =
-        vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags, "id");
       AssertThrow(write_in_parallel(temporary, head.str() + piece + foot.str(), communicator), failure);
       run_on_root(
         [&] {
@@ -55,6 +57,14 @@ namespace Talus
           rename_file(temporary, final_name);
         },
         communicator);
+    }
+
+    template <int dim>
+    std::string grid_piece(const Grid<dim> &grid, const bool has_all_cells, DataOutBase::VtkFlags flags)
+    {
+      GridOutput<dim> data(grid, has_all_cells);
+      flags.physical_units = {{"mass", "mass"}, {"velocity", "length/time"}};
+      return vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags);
     }
   } // namespace
 
@@ -183,16 +193,12 @@ namespace Talus
     last_step = step;
     find_next();
 
-    ParticleOutput<dim> particle_output;
-    particle_output.build_patches(particles, fields);
-    write_vtu(particle_output, "particles", particle_output.units());
+    const DataOutBase::VtkFlags flags = vtk_flags(time, step);
+    write_vtu(particle_piece(particles, fields), "particles", flags);
     if (with_csv)
       write_particle_csv(path + "/" + file_name("particles", number, ".csv"), particles, fields, time, communicator);
     if (with_grid)
-    {
-      GridOutput<dim> grid_output(grid, with_whole_grid);
-      write_vtu(grid_output, "grid", {{"mass", "mass"}, {"velocity", "length/time"}});
-    }
+      write_vtu(grid_piece(grid, with_whole_grid, flags), "grid", flags);
   }
 
   template <int dim>
@@ -203,14 +209,10 @@ namespace Talus
   }
 
   template <int dim>
-  template <class DataOut>
-  void Output<dim>::write_vtu(DataOut &data, const std::string &name,
-                              const std::map<std::string, std::string> &units) const
+  void Output<dim>::write_vtu(const std::string &piece, const std::string &name,
+                              const DataOutBase::VtkFlags &flags) const
   {
-    DataOutBase::VtkFlags flags(times.back(), last_step, /* print_date_and_time = */ false,
-                                DataOutBase::VtkFlags::best_speed);
-    flags.physical_units = units;
-    write_vtu_file(data, path + "/" + file_name(name, times.size() - 1, ".vtu"), flags, communicator);
+    write_vtu_file(piece, path + "/" + file_name(name, times.size() - 1, ".vtu"), flags, communicator);
     run_on_root([&] { write_series(name); }, communicator);
   }
 
@@ -218,7 +220,7 @@ namespace Talus
   std::string Output<dim>::write_failure(const double time, const unsigned int step, const WorkingSet<dim> &particles,
                                          const Grid<dim> *grid, MPI_Comm communicator) const
   {
-    DataOutBase::VtkFlags flags(time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed);
+    const DataOutBase::VtkFlags flags = vtk_flags(time, step);
     // What a run may have failed by, whatever the file chooses.
     auto names = field_names;
     names.insert(names.end(), {"velocity", "stress", "deformation gradient", "volume ratio"});
@@ -230,18 +232,12 @@ namespace Talus
                       name =
                         path + "/failure_" + number +
                         (is_part ? ".rank" + std::to_string(Utilities::MPI::this_mpi_process(this->communicator)) : "");
-    ParticleOutput<dim> particle_output;
-    particle_output.build_patches(particles, chosen);
-    flags.physical_units = particle_output.units();
-    write_vtu_file(particle_output, name + ".vtu", flags, communicator);
+    write_vtu_file(particle_piece(particles, chosen), name + ".vtu", flags, communicator);
     if (with_csv)
       write_particle_csv(name + ".csv", particles, chosen, time, communicator);
     if (with_grid && grid)
-    {
-      GridOutput<dim> grid_output(*grid, with_whole_grid);
-      flags.physical_units = {{"mass", "mass"}, {"velocity", "length/time"}};
-      write_vtu_file(grid_output, path + "/failure_grid_" + number + ".vtu", flags, communicator);
-    }
+      write_vtu_file(grid_piece(*grid, with_whole_grid, flags), path + "/failure_grid_" + number + ".vtu", flags,
+                     communicator);
     return name + ".vtu";
   }
 

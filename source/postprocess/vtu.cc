@@ -19,48 +19,55 @@ namespace Talus
 
   namespace
   {
-    std::string base64(const void *data, const std::size_t n_bytes)
+    void append_base64(const unsigned char *bytes, const std::size_t n, std::string &text)
     {
-      const auto *begin = static_cast<const unsigned char *>(data);
-      return Utilities::encode_base64(std::vector<unsigned char>(begin, begin + n_bytes));
-    }
-
-    /** What stands in a DataArray: a head of block count, size, size of the last block, compressed size; the block. */
-    std::string encode(const std::vector<double> &values)
-    {
-      const uLong       n_bytes = values.size() * sizeof(double);
-      std::vector<char> block(compressBound(n_bytes));
-      uLong             n_compressed = block.size();
-      const int         status       = compress2(reinterpret_cast<Bytef *>(block.data()), &n_compressed,
-                                                 reinterpret_cast<const Bytef *>(values.data()), n_bytes, Z_BEST_SPEED);
-      AssertThrow(status == Z_OK, ExcInternalError());
-      const std::array<std::uint32_t, 4> head = {{1, static_cast<std::uint32_t>(n_bytes),
-                                                  static_cast<std::uint32_t>(n_bytes),
-                                                  static_cast<std::uint32_t>(n_compressed)}};
-      return base64(head.data(), sizeof(head)) + base64(block.data(), n_compressed) + "\n";
-    }
-
-    /** Makes an array of single numbers one of these doubles: the first that follows `tag`, which holds `mark`. */
-    void replace_array(std::string &text, const std::string &tag, const std::string &mark,
-                       const std::vector<double> &values)
-    {
-      const auto marked = text.find(mark);
-      if (marked == std::string::npos) // a rank without patches
+      constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+      std::size_t    i        = 0;
+      std::size_t    to       = text.size();
+      text.resize(to + 4 * ((n + 2) / 3), '=');
+      for (; i + 2 < n; i += 3)
+      {
+        const unsigned int three = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
+        for (int shift = 18; shift >= 0; shift -= 6)
+          text[to++] = digits[three >> shift & 63];
+      }
+      if (i == n)
         return;
-      const std::string single = "Float32";
-      const auto        type   = text.find(single, text.rfind(tag, marked));
-      text.replace(type, single.size(), "Float64");
-      const auto body = text.find(">\n", type) + 2;
-      text.replace(body, text.find("</DataArray>", body) - body, encode(values));
+      const unsigned int rest = bytes[i] << 16 | (i + 1 < n ? bytes[i + 1] << 8 : 0);
+      text[to++]              = digits[rest >> 18 & 63];
+      text[to++]              = digits[rest >> 12 & 63];
+      if (i + 1 < n)
+        text[to] = digits[rest >> 6 & 63];
     }
   } // namespace
+
+  template <class Number>
+  std::string vtu_numbers(const std::vector<Number> &numbers)
+  {
+    if (numbers.empty())
+      return "";
+    // Block count, size, size of the last block, compressed size; the block.
+    const uLong                n_bytes = numbers.size() * sizeof(Number);
+    std::vector<unsigned char> block(compressBound(n_bytes));
+    uLong                      n_compressed = block.size();
+    const int                  status =
+      compress2(block.data(), &n_compressed, reinterpret_cast<const Bytef *>(numbers.data()), n_bytes, Z_BEST_SPEED);
+    AssertThrow(status == Z_OK, ExcInternalError());
+    const std::array<std::uint32_t, 4> head = {{1, static_cast<std::uint32_t>(n_bytes),
+                                                static_cast<std::uint32_t>(n_bytes),
+                                                static_cast<std::uint32_t>(n_compressed)}};
+    std::string                        text;
+    append_base64(reinterpret_cast<const unsigned char *>(head.data()), sizeof(head), text);
+    append_base64(block.data(), n_compressed, text);
+    return text + '\n';
+  }
 
   template <int dim, int spacedim>
   std::string vtu_piece(const std::vector<DataOutBase::Patch<dim, spacedim>> &patches,
                         const std::vector<std::string>                       &names,
                         const std::vector<std::tuple<unsigned int, unsigned int, std::string,
                                                      DataComponentInterpretation::DataComponentInterpretation>> &ranges,
-                        const DataOutBase::VtkFlags &flags, const std::string &exact)
+                        const DataOutBase::VtkFlags                                                             &flags)
   {
     std::ostringstream out;
     DataOutBase::write_vtu_main(patches, names, ranges, flags, out);
@@ -74,15 +81,14 @@ namespace Talus
         for (unsigned int d = 0; d < 3; ++d)
           places.push_back(d < spacedim ? patch.vertices[v][d] : 0.);
     }
-    replace_array(text, "<Points>", "<Points>", places);
-    const auto name = std::find(names.begin(), names.end(), exact);
-    if (name != names.end())
+    // The first array after the points' tag is theirs, in single precision; a rank without patches has none.
+    const std::string single = "Float32";
+    if (const auto tag = text.find("<Points>"); tag != std::string::npos)
     {
-      std::vector<double> values;
-      for (const auto &patch : patches)
-        for (unsigned int v = 0; v < patch.data.n_cols(); ++v)
-          values.push_back(patch.data(name - names.begin(), v));
-      replace_array(text, "<DataArray", "Name=\"" + exact + "\"", values);
+      const auto type = text.find(single, tag);
+      text.replace(type, single.size(), "Float64");
+      const auto body = text.find(">\n", type) + 2;
+      text.replace(body, text.find("</DataArray>", body) - body, vtu_numbers(places));
     }
     return text;
   }
@@ -130,10 +136,12 @@ namespace Talus
     const std::vector<DataOutBase::Patch<dim, spacedim>> &, const std::vector<std::string> &,                          \
     const std::vector<std::tuple<unsigned int, unsigned int, std::string,                                              \
                                  DataComponentInterpretation::DataComponentInterpretation>> &,                         \
-    const DataOutBase::VtkFlags &, const std::string &);
-  INSTANTIATE(0, 2)
-  INSTANTIATE(0, 3)
+    const DataOutBase::VtkFlags &);
   INSTANTIATE(2, 2)
   INSTANTIATE(3, 3)
 #undef INSTANTIATE
+  template std::string vtu_numbers(const std::vector<float> &);
+  template std::string vtu_numbers(const std::vector<double> &);
+  template std::string vtu_numbers(const std::vector<std::int32_t> &);
+  template std::string vtu_numbers(const std::vector<std::uint8_t> &);
 } // namespace Talus

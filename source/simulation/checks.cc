@@ -53,8 +53,8 @@ namespace Talus
   } // namespace
 
   template <int dim>
-  Checks<dim>::Checks(Parameters &parameters, Model<dim> &model, const double end_time) :
-    parameters(parameters), model(model), end_time(end_time)
+  Checks<dim>::Checks(Parameters &parameters, Model<dim> &model, const double begin_time, const double end_time) :
+    parameters(parameters), model(model), begin_time(begin_time), end_time(end_time)
   {
   }
 
@@ -77,6 +77,7 @@ namespace Talus
     check_overridden();
     check_edges();
     check_floor();
+    check_obstacles();
     check_steps(step_size, signal_speed, max_steps);
   }
 

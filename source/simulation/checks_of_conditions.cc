@@ -173,7 +173,7 @@ namespace Talus
   template <int dim>
   void Checks<dim>::check_floor()
   {
-    if (!model.contacts.all.empty())
+    if (!model.contacts.all.empty() || !model.boundary.obstacles.empty())
       return;
     const bool is_box = dynamic_cast<const BoxGrid<dim> *>(&model.grid) != nullptr;
     for (unsigned int body = 0; body < extents.size(); ++body)

@@ -1,8 +1,8 @@
-#include <talus/simulation/element.h>
-
 #include <talus/core/eigen.h>
+#include <talus/core/libraries.h>
 #include <talus/core/registry.h>
 #include <talus/postprocess/files.h>
+#include <talus/simulation/element.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -34,6 +34,7 @@ namespace Talus
   Element::Element(Parameters &parameters) : ParameterAcceptor("/Element"), parameters(parameters)
   {
     const std::string section = get_section_name();
+    declare_libraries();
     const auto names = parameters.names("/Materials", "Names of the materials; each has a subsection of its name.");
     if (names.empty())
       throw EntryError("/Materials", "Names", "give at least one material.");

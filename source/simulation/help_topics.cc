@@ -1,6 +1,7 @@
 #include <talus/simulation/help_topics.h>
 
 #include <talus/core/exceptions.h>
+#include <talus/core/libraries.h>
 #include <talus/core/parameter_names.h>
 #include <talus/simulation/simulation.h>
 
@@ -25,6 +26,7 @@ namespace Talus
                                             {"Conditions", "Conditions/condition", "Type", ""},
                                             {"Tractions", "Tractions/traction", "Type", ""},
                                             {"Contacts", "Contacts/contact", "Surface", ""},
+                                            {"Obstacles", "Obstacles/obstacle", "Surface", ""},
                                             {"Grid", "Grid", "Type", ""},
                                             {"Kernel", "Kernel", "Type", ""},
                                             {"Transfer", "Transfer", "Type", ""},
@@ -42,7 +44,8 @@ namespace Talus
     std::vector<std::string> one_of_each()
     {
       return {"Materials/Names = material", "Bodies/Names = body",      "Conditions/Names = condition",
-              "Tractions/Names = traction", "Contacts/Names = contact", "Output/Probes/Names = probe"};
+              "Tractions/Names = traction", "Contacts/Names = contact", "Obstacles/Names = obstacle",
+              "Output/Probes/Names = probe"};
     }
 
     std::string printed(const std::vector<std::string> &entries)
@@ -50,6 +53,7 @@ namespace Talus
       Parameters parameters = Parameters::from_text("", "a topic", entries);
       References<2>::allow_idle_entries(parameters);
       parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
+      declare_libraries();
       const Simulation<2> simulation(parameters, MPI_COMM_SELF);
       parameters.enter_values();
       std::ostringstream text;

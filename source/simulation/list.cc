@@ -1,7 +1,7 @@
 #include <talus/boundary/condition.h>
 #include <talus/core/registry.h>
 #include <talus/kernels/kernel.h>
-#include <talus/loads/contact_surface.h>
+#include <talus/grid/contact_surface.h>
 #include <talus/materials/material.h>
 #include <talus/particles/shape.h>
 #include <talus/simulation/list.h>
@@ -31,7 +31,7 @@ namespace Talus
     list<Material>(out, "material");
     list<Shape<2>>(out, "shape");
     list<Condition<2>>(out, "condition");
-    list<ContactSurface<2>>(out, "contact surface");
+    list<ContactSurface<2>>(out, "surface");
     list<Stepper<2>>(out, "stepper");
     list<ManufacturedSolution<2>>(out, "solution");
   }

@@ -1,6 +1,7 @@
 #include <talus/simulation/simulation.h>
 
 #include <talus/core/exceptions.h>
+#include <talus/core/libraries.h>
 #include <talus/core/memory.h>
 
 #include <iostream>
@@ -35,6 +36,7 @@ namespace Talus
   {
     References<dim>::allow_idle_entries(parameters);
     parameters.choose_from("", "Dimension", "2", "2|3", "Number of space dimensions; 2 is plane strain.");
+    declare_libraries();
     auto simulation = std::make_unique<Simulation>(parameters, communicator, stage_number);
     parameters.parse();
     return simulation;
@@ -103,7 +105,8 @@ namespace Talus
     report = stepper->start(model, timing);
     energy.start(report, current_totals().strain_energy);
     fracture.start(model);
-    Checks<dim>(parameters, model, end_time).run(stepper->step_size(model, report), report.signal_speed, max_steps);
+    Checks<dim>(parameters, model, stage_begin, end_time)
+      .run(stepper->step_size(model, report), report.signal_speed, max_steps);
     return_free_memory();
   }
 
@@ -147,9 +150,21 @@ namespace Talus
     if (now.step % energy.interval == 0 || is_finished())
     {
       energy.check_total(model, report, current_totals().strain_energy, now);
+      check_obstacles();
       look_for_fracture();
       look_for_rest();
     }
+  }
+
+  template <int dim>
+  void Simulation<dim>::check_obstacles() const
+  {
+    // Those that press on one lie a part of a spacing deep in it.
+    for (const auto &obstacle : model.boundary.obstacles)
+      if (const auto found = particles_in(*obstacle, model, now.time, model.grid.largest_spacing); found.first > 0)
+        throw RunError("The obstacle '" + obstacle->name + "' has not held " + std::to_string(found.first) +
+                       " particle(s)," + now.text() + ": the deepest in it is " + found.second +
+                       ". It must be two spacings thick at least, and no edge may be sharper: take a smaller spacing.");
   }
 
   template <int dim>

@@ -78,7 +78,7 @@ namespace Talus
     {
       std::ostringstream text;
       text << "stage '" << stage.name << "' has not come to rest within its 'Duration': its kinetic energy is "
-           << report.kinetic_energy / put_in() << " of what was put in, and the unbalanced forces are " << unbalanced()
+           << kinetic_energy_of_nodes() / put_in() << " of what was put in, and the unbalanced forces are " << unbalanced()
            << " of the loads. Give it more time, or 'Local damping' in its section 'Run'";
       say_warning(text.str() + now.text() + '.');
     }
@@ -96,6 +96,19 @@ namespace Talus
   double Simulation<dim>::put_in() const
   {
     return std::max(energy.put_in(), most_kinetic_energy);
+  }
+
+  template <int dim>
+  double Simulation<dim>::kinetic_energy_of_nodes() const
+  {
+    double sum = 0;
+    for (const unsigned int i : model.grid.active_nodes)
+    {
+      const double *numbers = model.grid.fields[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        sum += 0.5 * numbers[NodalFields<dim>::mass] * std::pow(numbers[NodalFields<dim>::velocity + d], 2);
+    }
+    return Utilities::MPI::sum(sum, communicator);
   }
 
   template <int dim>
@@ -126,6 +139,8 @@ namespace Talus
       loads += load->force.norm();
     for (const auto &condition : model.boundary.conditions)
       reactions += condition->nodal_force.norm();
+    for (const auto &obstacle : model.boundary.obstacles)
+      reactions += obstacle->reaction.norm();
     sum    = Utilities::MPI::sum(sum, communicator);
     weight = std::max({Utilities::MPI::sum(weight, communicator), loads, reactions});
     return weight > 0 ? sum / weight : 0.;
@@ -138,7 +153,7 @@ namespace Talus
       return;
     const Stage &stage = *stages[stage_number];
     if (stage.waits_for_rest())
-      is_at_rest = stage.is_at_rest(report.kinetic_energy, put_in(), unbalanced());
+      is_at_rest = stage.is_at_rest(kinetic_energy_of_nodes(), put_in(), unbalanced());
     if (trial.begin == nullptr)
       return;
     trial.moved      = (probes.position_of(stage.probe, model.particles) - trial.position).norm();
@@ -152,6 +167,7 @@ namespace Talus
   template void                            Simulation<dim>::finish_stage();                                            \
   template double                          Simulation<dim>::put_in() const;                                            \
   template double                          Simulation<dim>::unbalanced() const;                                        \
+  template double                          Simulation<dim>::kinetic_energy_of_nodes() const;                           \
   template void                            Simulation<dim>::look_for_rest();
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -61,6 +61,8 @@ namespace Talus
     body_force_work += moment.dt * report.body_force_power;
     for (const auto &condition : model.boundary.conditions)
       condition_work += condition->work;
+    for (const auto &obstacle : model.boundary.obstacles)
+      condition_work += obstacle->work;
     double work = 0;
     for (const auto &load : model.tractions.loads)
       work += load->work;

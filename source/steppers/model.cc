@@ -82,6 +82,10 @@ namespace Talus
       boundary.conditions.push_back(
         parameters.make<Condition<dim>>("/Conditions/" + name, "Type", "no-slip", "Kind of condition."));
 
+    for (const auto &name :
+         parameters.names("/Obstacles", "Names of the obstacles; each has a subsection of its name."))
+      boundary.obstacles.push_back(std::make_unique<Obstacle<dim>>(parameters, name));
+
     std::vector<std::string> body_names;
     for (const auto &body : bodies)
       body_names.push_back(body->name);

@@ -194,6 +194,36 @@ void ghosts_damped()
   check("work", sum(work) - sum(damped.setup.boundary.damping.work), 1e-12);
 }
 
+/** An obstacle across walls, before and behind them: with what conditions take it is what the body loses. */
+template <int dim>
+void ghosts_and_obstacle()
+{
+  const double     dt = 0.1;
+  RandomNodes<dim> nodes(
+    walls<dim>(0.4) + section("Obstacles", set("Names", "bed") + section("bed", set("Formula", "0.3 * x + y - 3.3") +
+                                                                                  set("Friction coefficient", "0.3") +
+                                                                                  set("Rotation", "0.2 * t"))));
+  nodes.setup.move_nodes(0.6, dt);
+  Tensor<1, dim> loss, reaction, own;
+  double         magnitude = 0;
+  for (const auto &[index, old] : nodes.before)
+    if (nodes.is_mine(index))
+      for (unsigned int c = 0; c < dim; ++c)
+      {
+        loss[c] += nodes.loss(index, c, dt);
+        magnitude += std::abs(nodes.loss(index, c, dt));
+      }
+  const double bound = std::sqrt(nodes.before.size()) * std::numeric_limits<double>::epsilon() * sum(magnitude);
+  for (const auto &condition : nodes.setup.boundary.conditions)
+    reaction += condition->reaction;
+  own = nodes.setup.boundary.obstacles[0]->reaction;
+  for (unsigned int c = 0; c < dim; ++c)
+    check("loss - reactions", sum(loss[c]) - dt * sum(reaction[c] + own[c]), bound);
+  check_true("the obstacle bears something", std::abs(sum(own[1])) > 0.1);
+}
+
+template void ghosts_and_obstacle<2>();
+template void ghosts_and_obstacle<3>();
 template void ghosts<2>();
 template void ghosts<3>();
 template void ghosts_damped<2>();

@@ -22,6 +22,7 @@ OTHERS = {
     "F-bar": ("tests/compare/disk_2d.prm", 30, {"Run/F-bar": "true", "Materials/rubber/Type": "Hencky",
                                                 "Materials/rubber/Yield stress": 1e4}),
     "F-bar on a mesh": ("tests/compare/disk_2d.prm", 30, {"Run/F-bar": "true", "Grid/Type": "mesh", "Kernel/Type": "UMLS"}),
+    "obstacles": ("tests/compare/bed_2d.prm", 40, {"Run/Energy account": "true"}),
     "contact": ("prm/bowl.prm", 30, {"Run/Energy account": "true"}),
     "comparison": ("prm/shear.prm", 30, {"Run/End time": 1.2e-3, "FEM reference/Average from": 0.4,
                                          "FEM reference/Cells": "10, 10"}),

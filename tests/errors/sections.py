@@ -41,6 +41,11 @@ def contact(name, text, entry, *message):
     return in_section(name, "Contacts", f"set Names = wall\nsubsection wall\n{text}\nend", entry, *message)
 
 
+def obstacle(name, text, entry, *message):
+    text = "\n".join("  set " + line for line in text.split("\n"))
+    return in_section(name, "Obstacles", f"set Names = bed\nsubsection bed\n{text}\nend", entry, *message)
+
+
 def reference(name, text, entry, *message):
     return in_section(name, "FEM reference", "set Compare = yes\n" + text, entry, *message)
 
@@ -180,6 +185,18 @@ CASES = {
         contact("friction that drives", "Surface = ball\nCentre = 1, 0.5\nRadius = 3\nPressure = 1e5\nFriction coefficient = -1",
                 "Friction coefficient", "at least 0|negative"),
         contact("mesh of a box", "Surface = mesh\nPressure = 1e5", "Surface", "mesh"),
+        obstacle("obstacle in a body", "Surface = formula\nFormula = y - 0.3", "Surface", "24 particle.*deepest of them, particle", "Move the obstacle"),
+        obstacle("obstacle beyond the grid", "Surface = formula\nFormula = y + 1", "Surface", "no node", "two spacings thick"),
+        obstacle("obstacle that breathes", "Formula = y - 0.1 * t", "Formula", "leave out t"),
+        obstacle("obstacle that bends", "Formula = y - 0.1\nDisplacement = x; 0", "Displacement", "moves as a whole"),
+        obstacle("obstacle that twists", "Formula = y - 0.1\nRotation = y", "Rotation", "turns as a whole"),
+        obstacle("obstacle with friction that drives", "Formula = y - 0.1\nFriction coefficient = -1", "Friction coefficient",
+                 "must not be negative"),
+        obstacle("obstacle of two formulas", "Formula = y; x", "Formula", "one number"),
+        obstacle("obstacle without a number", "Formula = log(x - 5)", "Formula", "no finite value"),
+        obstacle("obstacle of two corners", "Surface = polygon\nCorners = 0, 0; 1, 0", "Corners", "three corners"),
+        obstacle("obstacle that crosses itself", "Surface = polygon\nCorners = 0, 0; 2, 0.2; 2, 0; 0, 0.2", "Corners", "cross"),
+        obstacle("obstacle of a missing file", "Surface = surface\nFile = nowhere.txt", "File", "nowhere.txt"),
         contact("no surface file", "Surface = surface\nFile = nowhere.txt\nPressure = 1e5", "File", "nowhere.txt"),
     ],
     "results": [

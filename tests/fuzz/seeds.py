@@ -93,6 +93,21 @@ subsection Contacts
     set Friction coefficient = 0.3
   end
 end
+subsection Obstacles
+  set Names = bed, wheel
+  subsection bed
+    set Formula = y + 0.3*x - 0.15
+    set Friction coefficient = 0.3
+    set Account time = 0.01
+  end
+  subsection wheel
+    set Surface = polygon
+    set Corners = 1.6, 0.85; 1.9, 0.85; 1.9, 0.98; 1.6, 0.98
+    set Displacement = 0.1*t; 0
+    set Rotation = t
+    set Centre of rotation = 1.75, 0.9
+  end
+end
 """
 WALLS = ("  set Names = floor\n", """\
   set Names = floor, rough, peg, still

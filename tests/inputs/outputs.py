@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """When outputs and rows are written, and what a run says of itself before it runs. Usage: see main() of program.py."""
+import csv
 import json
 import os
 import re
+import shutil
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -71,6 +73,27 @@ def case_summary(runs):
     runs.check(f"failed: {found['message']}", status != 2 or found["ended"] != "failed" or found["message"] not in text, 0.5)
 
 
+def case_sweep(runs):
+    """All combinations run, also beside one that fails; the table has their values and their last rows."""
+    directory = os.path.join(runs.work, "sweep")
+    shutil.rmtree(directory, ignore_errors=True)
+    status, text = runs.start([os.path.join(HERE, PRM), "--sweep", "Run/Courant number = 0.3 | 20",
+                               "--sweep", "Transfer/Type = APIC | FLIP", "--set", f"Output/Directory = {directory}",
+                               "--set", "Run/Body force = 0; -9 * (1 > 2 || 2 > 1)"])
+    with open(os.path.join(directory, "sweep.csv"), newline="") as file:
+        head, *rows = list(csv.reader(file))
+    runs.check(f"status {status}", status != 2, 0.5)
+    runs.check("combinations", [row[:4] for row in rows] != [[str(n + 1), c, t, s] for n, (c, t, s) in enumerate(
+        (("0.3", "APIC", "0"), ("0.3", "FLIP", "0"), ("20", "APIC", "2"), ("20", "FLIP", "2")))], 0.5)
+    for n in (0, 1):
+        s = columns_of(os.path.join(directory, str(n + 1), "statistics.csv"), with_units=True)
+        runs.check(f"run {n + 1}: last row", head[4:] != list(s) or [float(x) for x in rows[n][4:]] != [c[-1] for c in s.values()], 0.5)
+    runs.check("each says which it is", "Run 3 of 4, Run/Courant number = 20, Transfer/Type = APIC" not in text, 0.5)
+    for sweep, message in (("Transfer", "needs \"Section/Entry"), ("Run/Stepper = " + "|".join("x" * 20000), "more than 10000")):
+        status, text = runs.start([os.path.join(HERE, PRM), "--sweep", sweep])
+        runs.check(f"{sweep[:20]}: {text.strip()[:80]}", status != 1 or message not in text, 0.5)
+
+
 def case_topics(runs):
     """Help on all sections, and on all objects that there are; what is printed without a file is a file."""
     status, text = runs.start(["--parameters"])
@@ -82,7 +105,7 @@ def case_topics(runs):
         runs.check(f"{section}: {len(text.splitlines())} lines", status or not re.match(r" *subsection " + section.split("/")[-1], text) or
                    len(text.splitlines()) < 4, 0.5)
     kinds = {"kernel": "Kernel", "transfer": "Transfer", "material": "Materials", "shape": "Bodies", "condition": "Conditions",
-             "contact surface": "Contacts", "solution": "Verification"}
+             "surface": "Contacts", "solution": "Verification"}
     for line in runs.start(["--list"])[1].splitlines():
         kind, name = re.match(r"(\S+(?: \S+)?)\s{2,}(\S+(?: \S+)*)\s{2,}", line).groups()
         if kind in kinds:

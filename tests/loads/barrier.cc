@@ -1,6 +1,6 @@
 #include <talus/loads/barrier.h>
-#include <talus/loads/contact_surface.h>
-#include <talus/loads/nearest.h>
+#include <talus/grid/contact_surface.h>
+#include <talus/grid/nearest.h>
 
 #include "../surfaces.h"
 
@@ -129,6 +129,13 @@ namespace
       for (unsigned int p = 0; p < n; ++p)
       {
         const double exact = signed_distance(point(p));
+        if (const auto found = surface.signed_distance(point(p)))
+        {
+          raise(error, found->value - exact);
+          raise(slope, signed_distance(point(p) + 1e-7 * found->normal) - exact - 1e-7);
+        }
+        else
+          wrong += std::abs(exact) < reach - bound;
         wrong += is_found[p] != (std::abs(exact) < reach) && std::abs(std::abs(exact) - reach) > bound;
         wrong += surface.contains(point(p)) != (exact < 0) && std::abs(exact) > bound;
       }
@@ -179,6 +186,22 @@ void contact_surfaces()
   box->create(0.25);
   points.compare("box", *box, 0.25, distance_from_box<dim>, 1e-14);
 
+  auto polygon = contact_surface<dim>("polygon", set("Corners", "-1, -0.5; 0.75, -0.5; 0.75, 1; -1, 1") +
+                                                   (dim == 2 ? "" : set("Axis", "z") + set("Ends", "-0.75, 0.5")));
+  polygon->create(0.25);
+  points.compare("polygon", *polygon, 0.25, distance_from_box<dim>, 1e-14);
+
+  // On the surface there is no way to the nearest point, but a normal.
+  for (auto *surface : {box.get(), polygon.get()})
+  {
+    Point<dim> below;
+    below[1]         = -0.5;
+    const auto found = surface->signed_distance(below);
+    check_true("found on the surface", found.has_value());
+    check("distance on the surface", found ? found->value : 1, 1e-15);
+    check("normal on the surface", found ? found->normal[1] + 1 : 1, 1e-15);
+  }
+
   // The same box as the boundary of a mesh, whose faces belong to several ranks.
   Parameters parameters =
     Parameters::from_text(section("Grid", set("Type", "mesh") + set("Cells", coordinates<dim>({{7, 6, 5}})) + corners) +
@@ -195,6 +218,10 @@ void contact_surfaces()
   auto       ball    = contact_surface<dim>("ball", set("Radius", "0.8"));
   ball->create(0.3);
   points.compare("ball", *ball, 0.3, of_ball, 1e-14);
+  auto formula = contact_surface<dim>(
+    "formula", set("Formula", dim == 2 ? "3 * (sqrt(x^2 + y^2) - 0.8)" : "3 * (sqrt(x^2 + y^2 + z^2) - 0.8)"));
+  formula->create(0.3);
+  points.compare("formula", *formula, 0.3, of_ball, 1e-8);
   if constexpr (dim == 3)
   {
     const TemporaryFile file(".stl", stl_text(sphere_surface(Point<3>(), 0.8, 24)));

@@ -79,6 +79,26 @@ def without_end(runs, case):
     return path
 
 
+def case_resets(runs):
+    """Plastic strains begin anew where a stage says so; stress stays, under another law as well."""
+    def ends(name, *settings):
+        directory = runs.run("resets.prm", name, *settings)
+        numbers = [int(found) for found in (re.match(r"particles_(\d+)\.csv", file)[1] for file in sorted(os.listdir(directory))
+                                            if file.endswith(".csv") and file.startswith("particles_"))]
+        return [particles_of(directory, number) for number in numbers]
+
+    begin, pressed, held, changed = ends("resets")
+    _, _, kept, _ = ends("kept", "Stages/hold/Reset plastic strains = false")
+    strain = [p["equivalent_plastic_strain"] for p in pressed]
+    runs.check(f"plastic strain of {min(strain):.3g} to {max(strain):.3g}", not (0.004 < min(strain) and max(strain) < 0.012), 0.5)
+    runs.check("as it was", max(abs(p["equivalent_plastic_strain"] - e) for p, e in zip(kept, strain)), 1e-6)
+    runs.check("reset", max(p["equivalent_plastic_strain"] for p in held), 1e-6)
+    for name, later in (("held", held), ("another law", changed)):
+        worst = max(abs(p[f"stress_{c}"] - q[f"stress_{c}"]) for p, q in zip(pressed, later) for c in ("xx", "yy", "zz", "xy"))
+        runs.check(f"{name}: stress stays", worst / max(abs(p["stress_yy"]) for p in pressed), 1e-6)
+    runs.check("the other law keeps none", "equivalent_plastic_strain" in changed[0], 0.5)
+
+
 def case_resumed(runs):
     """A run that goes on from the end of a stage, or from within one, is the run that was not stopped."""
     whole = runs.run("column.prm", "whole", "Checkpoints/Step interval = 250", "Checkpoints/Kept = 99", "Output/Step interval = 200")

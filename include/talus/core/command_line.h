@@ -17,7 +17,7 @@ namespace Talus
     std::string              file_name;
     std::string              topic;     // of --help and --parameters without a file
     std::string              directory; // of the run that is to go on
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, sweeps;
     bool                     wants_help = false, wants_version = false, wants_list = false, prints_parameters = false;
     bool                     is_element  = false; // the file is of a single point
     bool                     only_checks = false; // what the run would be

@@ -63,6 +63,25 @@ namespace Talus
     bool              given = false;
   };
 
+  /** A number as a function of x, y, z, t from the parameter file. Test: tests/core/expressions.cc. */
+  template <int dim>
+  class ParsedScalar
+  {
+  public:
+    /** Sets it; a bad formula is blamed on `entry` of `section` by an EntryError. */
+    void initialize(const std::string &expression, const std::string &section, const std::string &entry);
+
+    /** Throws EntryError where the formula has no finite value. */
+    double value(const dealii::Point<dim> &x, const double time) const;
+
+    bool is_zero() const { return formula.is_zero(); }
+    bool depends_on_space() const { return formula.depends_on_space(); }
+
+  private:
+    ParsedVector<dim> formula; // the same for all components
+    std::string       expression, section, entry;
+  };
+
   /**
    * Calls `read`, which has deal.II read formulas, and returns in one line why
    * muParser rejects one, or nothing. What deal.II writes to stderr then is dropped.

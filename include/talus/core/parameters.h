@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -140,6 +141,7 @@ namespace Talus
     std::map<std::string, std::string> sections;    // where each was opened
     std::vector<std::string>           open_files;  // being scanned, each included by the one before
     std::map<std::string, std::string> other_names; // of objects that `--set` or a stage has left out, by section
+    std::set<std::string>              of_others;   // entries of objects that a stage has put others in place of
     std::map<std::string, std::string> idle;        // entries that nothing reads, and why that may surprise
     std::vector<std::string>           notes;
     std::string                        file_name;

@@ -25,6 +25,9 @@ namespace Talus
       Signals(const Signals &) = delete;
     };
 
+    /** Whether a signal has come to this process since the last run began. */
+    static bool is_signal_noted();
+
     /** What this rank asks for, then what any rank does. */
     bool wants_checkpoint = false;
 

@@ -54,6 +54,13 @@ namespace Talus
     /** Gives the ghosts their velocities and increments, when the copies have theirs. */
     void fill();
 
+    /** Prepares carried_mass() after solve(). */
+    void carry_masses();
+
+    /** What a change of an owned node's velocity, component by component, changes of the momentum: its own `mass`, and
+     * what its ghosts make of it [mass]. */
+    dealii::Tensor<1, dim> carried_mass(const unsigned int node, const double mass) const;
+
     /** Calls body(place) for this rank's ghosts. */
     template <class Body>
     void for_each_owned_ghost(const Body &body) const
@@ -196,6 +203,9 @@ namespace Talus
     std::array<Rows, dim>     rows;
     std::array<Unknowns, dim> unknowns;
     std::vector<Press>        presses;
-    BlockFactor               factor;
+
+    std::vector<dealii::Tensor<1, dim>> carried; // of the real wall nodes [mass]
+
+    BlockFactor factor;
   };
 } // namespace Talus

@@ -6,7 +6,7 @@
 #include <talus/grid/grid.h>
 #include <talus/kernels/kernel.h>
 #include <talus/loads/barrier.h>
-#include <talus/loads/contact_surface.h>
+#include <talus/grid/contact_surface.h>
 #include <talus/materials/material.h>
 #include <talus/particles/particles.h>
 

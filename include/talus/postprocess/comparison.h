@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/boundary/condition.h>
+#include <talus/boundary/boundary.h>
 #include <talus/fem/elastic_reference.h>
 #include <talus/materials/material.h>
 #include <talus/particles/working_set.h>

@@ -49,6 +49,6 @@ namespace Talus
   /** Runs `work` on rank 0; a RunError there is thrown on all ranks. Collective. */
   void run_on_root(const std::function<void()> &work, MPI_Comm communicator);
 
-  /** Appends `value` with the 17 significant digits that determine a double. */
+  /** Appends `value` with as many digits as determine it, 17 at most. */
   void append_number(std::string &text, const double value);
 } // namespace Talus

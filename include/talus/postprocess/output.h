@@ -5,6 +5,7 @@
 #include <talus/postprocess/directory_lock.h>
 #include <talus/postprocess/particle_fields.h>
 
+#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <limits>
@@ -81,8 +82,7 @@ namespace Talus
     const std::string &directory() const { return path; }
 
   private:
-    template <class DataOut>
-    void write_vtu(DataOut &data, const std::string &name, const std::map<std::string, std::string> &units) const;
+    void write_vtu(const std::string &piece, const std::string &name, const dealii::DataOutBase::VtkFlags &flags) const;
     void write_series(const std::string &name) const;
     void find_next();
     std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;

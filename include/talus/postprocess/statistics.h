@@ -47,8 +47,8 @@ namespace Talus
     void check_is_there() const;
 
     /**
-     * The number of bytes of the rows of a file, whose first line has been read, up to the last one that is complete and
-     * not later than `time`. Throws RunError for what is no row.
+     * The number of bytes of the rows of a file, whose first line has been read, up to the last one that is complete
+     * and not later than `time`. Throws RunError for what is no row.
      */
     static std::uintmax_t length_until(const double time, const std::string &path, std::istream &in,
                                        const unsigned int n_columns);

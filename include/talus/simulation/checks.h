@@ -33,7 +33,7 @@ namespace Talus
   class Checks
   {
   public:
-    Checks(Parameters &parameters, Model<dim> &model, const double end_time);
+    Checks(Parameters &parameters, Model<dim> &model, const double begin_time, const double end_time);
 
     /** All of them; `step_size` is that of the first step, `signal_speed` the greatest c_p + |v_p|. Collective. */
     void run(const double step_size, const double signal_speed, const unsigned int max_steps);
@@ -64,6 +64,7 @@ namespace Talus
     void check_edges();
     void check_overridden();
     void check_floor();
+    void check_obstacles();
 
     void check_steps(const double step_size, const double signal_speed, const unsigned int max_steps);
 
@@ -80,7 +81,13 @@ namespace Talus
 
     Parameters         &parameters;
     Model<dim>         &model;
-    const double        end_time;
+    const double        begin_time, end_time;
     std::vector<Extent> extents;
   };
+
+  /** Particles that lie deeper than a depth in an obstacle at a time: how many there are, and the deepest in words:
+   * "particle 3 at (1, 2) by 0.1". Collective. */
+  template <int dim>
+  std::pair<std::uint64_t, std::string> particles_in(const Obstacle<dim> &obstacle, const Model<dim> &model,
+                                                     const double time, const double depth);
 } // namespace Talus

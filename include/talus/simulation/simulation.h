@@ -97,6 +97,9 @@ namespace Talus
      */
     double unbalanced() const;
 
+    /** What moves anything: velocities of particles that FLIP keeps, and no node has, do not [energy]. Collective. */
+    double kinetic_energy_of_nodes() const;
+
     /** Energy put in since the stage began, or the greatest kinetic energy if that is more [energy]. */
     double put_in() const;
     void   open_output(const Resume *resume = nullptr);
@@ -107,6 +110,7 @@ namespace Talus
     void   step();
     void   advance();
     void   check();
+    void   check_obstacles() const;
     void   look_for_fracture();
     void   postprocess();
     void   checkpoint();

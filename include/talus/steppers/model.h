@@ -1,6 +1,6 @@
 #pragma once
 
-#include <talus/boundary/condition.h>
+#include <talus/boundary/boundary.h>
 #include <talus/core/body_force.h>
 #include <talus/core/parameters.h>
 #include <talus/core/requests.h>
