@@ -179,7 +179,7 @@ foreach(case vibration ring)
 endforeach()
 
 # Friction, damping and loads against closed forms.
-foreach(case incline_2d incline_3d bed_2d bed_3d account damping energy bar_2d bar_3d pressure_2d pressure_3d wave_2d wave_3d layer)
+foreach(case incline_2d incline_3d bed_2d bed_3d shelf account damping energy bar_2d bar_3d pressure_2d pressure_3d wave_2d wave_3d layer)
   foreach(ranks 1 2)
     talus_add_run(loads.${case}.mpirun=${ranks} ${ranks} ${CMAKE_CURRENT_SOURCE_DIR}/loads/run.py
       $<TARGET_FILE:talus> ${work}/loads/${case}.${ranks} ${case} ${ranks} ${MPIRUN})

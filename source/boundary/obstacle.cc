@@ -104,21 +104,25 @@ namespace Talus
       const auto       found = surface->signed_distance(now.back(x));
       if (!found || found->value > tolerance)
         continue;
-      // Near an edge, and in a thin body, the node stands for both sides: that of the nearest one alone would let the
-      // other's material in.
-      std::vector<Tensor<1, dim>> normals{now.turn * found->normal};
+      // At an edge the node has the mean normal of the sides, as if that were round; in a thin body it stands for both.
+      Tensor<1, dim>              mean = found->normal;
+      std::vector<Tensor<1, dim>> seen{found->normal}, normals;
       for (unsigned int d = 0; d < dim; ++d)
-        for (const double side : {-1.1, 1.1})
+        for (const double side : {-0.6, 0.6})
         {
           Point<dim> beside = x;
           beside[d] += side * grid.spacing[d];
           const auto other = surface->signed_distance(now.back(beside));
-          if (!other || normals.size() == dim)
+          if (!other || std::any_of(seen.begin(), seen.end(), [&](const auto &n) { return n * other->normal > 0.9; }))
             continue;
-          const Tensor<1, dim> n = now.turn * other->normal;
-          if (std::all_of(normals.begin(), normals.end(), [&](const auto &one) { return one * n < 0.9; }))
-            normals.push_back(n);
+          seen.push_back(other->normal);
+          if (found->normal * other->normal > -0.5)
+            mean += other->normal;
+          else if (normals.empty())
+            normals.push_back(now.turn * other->normal);
         }
+      const double length = mean.norm();
+      normals.push_back(now.turn * (length > 0.1 ? mean / length : found->normal));
       for (unsigned int k = 0; k < normals.size(); ++k)
         touched.push_back({i, k, normals[k]});
     }

@@ -127,6 +127,23 @@ def case_bed_3d(runs):
     case_bed(runs, "bed_3d.prm", 3, (25,))
 
 
+def case_shelf(runs):
+    """Sand runs through a slot between shelves two spacings thick, off the nodes: none passes them, and all lies where it can."""
+    h, top, bottom = 0.05, 0.82, 0.715
+    left, right = (f"{a}, {bottom}; {b}, {bottom}; {b}, {top}; {a}, {top}" for a, b in ((-0.2, 0.36), (0.64, 1.2)))
+    directory = runs.run("../../prm/silo.prm", "shelf", f"Grid/Spacing = {h}", "Run/End time = 0.8", "Output/CSV = true",
+                         "Output/Time interval = 0", f"Obstacles/left/Corners = {left}", f"Obstacles/right/Corners = {right}",
+                         f"Bodies/fill/Lower corner = 0, {top}", "Bodies/fill/Upper corner = 1, 1.62")
+    particles = last_particles(directory)
+    below = [p for p in particles if p["y"] < bottom - h]
+    runs.check(f"{len(below)} of {len(particles)} have run out", not 0.03 < len(below) / len(particles) < 0.6, 0.5)
+    deepest = max(min(top - p["y"], p["y"] - bottom, max(0.36 - p["x"], p["x"] - 0.64)) for p in particles)
+    runs.check(f"deepest in a shelf {deepest / h:.2f} h", max(0, deepest) / h, 1)
+    # Beside the slot, below the shelves, there is what has come through it and is on its way: a jet, and a heap.
+    astray = [p for p in below if abs(p["x"] - 0.5) > 0.14 + 2 * h and p["y"] > 0.6]
+    runs.check(f"{len(astray)} beside the jet", len(astray), 0.5)
+
+
 def case_account(runs):
     """
     A block under the slope's load at once, which makes it vibrate: with accounts it stays where mu > tan 30 degrees, but for
