@@ -99,7 +99,7 @@ def case_topics(runs):
     status, text = runs.start(["--parameters"])
     for word in ("set Density", "set Surface ", "set Boundary ids", "subsection probe", "# Kernel function."):
         runs.check(f"without a file: {word}", status or word not in text, 0.5)
-    for section in ("Run", "Grid", "Kernel", "Transfer", "Materials", "Bodies", "Conditions", "Tractions", "Contacts", "Output", "Output/Probes",
+    for section in ("Run", "Grid", "Kernel", "Transfer", "Materials", "Bodies", "Conditions", "Tractions", "Contacts", "Obstacles", "Output", "Output/Probes",
                     "Checkpoints", "Verification", "FEM reference", "Stages"):
         status, text = runs.start(["--help", section])
         runs.check(f"{section}: {len(text.splitlines())} lines", status or not re.match(r" *subsection " + section.split("/")[-1], text) or
