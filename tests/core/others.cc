@@ -55,6 +55,14 @@ void expressions()
 {
   expressions_in<2>();
   expressions_in<3>();
+  ParsedScalar<3> scalar;
+  scalar.initialize("2 * x - z + t", "/Obstacles/bed", "Formula");
+  check("one number", scalar.value({1., 5., 0.25}, 0.5) - 2.25, 1e-15);
+  check_true("that depends on space", scalar.depends_on_space() && !scalar.is_zero());
+  check_error<EntryError>("two numbers", {"/Run: Formula: ", "one number"},
+                          [] { ParsedScalar<2>().initialize("x; y", "/Run", "Formula"); });
+  scalar.initialize("1 / x", "/Obstacles/bed", "Formula");
+  check_error<EntryError>("none", {"has no finite value at (0, 0, 0), t = 0.5"}, [&] { scalar.value({}, 0.5); });
   check_true("whole word", uses_variable("2*x+1", "x") && !uses_variable("exp(2)", "x") && !uses_variable("xy", "x"));
 }
 

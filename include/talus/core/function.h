@@ -43,7 +43,7 @@ namespace Talus
 
   /**
    * A condition on places from the parameter file, "y < 3 + 0.2*sin(x) && x > 1": a formula of x, y, z that is not 0
-   * where it holds. Test: tests/core/expressions.cc.
+   * where it holds. Test: tests/inputs (where), tests/particles/regions.cc.
    */
   template <int dim>
   class ParsedCondition
@@ -63,7 +63,7 @@ namespace Talus
     bool              given = false;
   };
 
-  /** A number as a function of x, y, z, t from the parameter file. Test: tests/core/expressions.cc. */
+  /** A number as a function of x, y, z, t from the parameter file. Test: tests/core/others.cc. */
   template <int dim>
   class ParsedScalar
   {
