@@ -10,6 +10,7 @@ DECLARE(affine_at_walls)
 DECLARE(affine_drive)
 DECLARE(flip_keeps_velocity)
 DECLARE(flip_after_condition)
+DECLARE(filter)
 DECLARE(motion)
 DECLARE(nodal_force)
 DECLARE(batched_and_plain)
@@ -60,6 +61,8 @@ int main(int argc, char **argv)
                     {"FLIP keeps velocity 3D", flip_keeps_velocity<3>},
                     {"FLIP after condition 2D", flip_after_condition<2>},
                     {"FLIP after condition 3D", flip_after_condition<3>},
+                    {"filter 2D", filter<2>},
+                    {"filter 3D", filter<3>},
                     {"motion 2D", motion<2>},
                     {"motion 3D", motion<3>},
                     {"nodal force 2D", nodal_force<2>},
