@@ -10,7 +10,7 @@ import sys
 from copies import Copies
 
 
-NOT_COMPARED = re.compile(r"checkpoint_\d+\.h5|log\.txt|summary\.json|parameters.*\.prm")
+NOT_COMPARED = re.compile(r"(checkpoint|particles)_\d+\.h5|log\.txt|summary\.json|parameters.*\.prm")
 
 
 class Runs:

@@ -11,7 +11,7 @@
 namespace Talus
 {
   /** Grows when older files cannot be read any more. */
-  constexpr unsigned int checkpoint_format = 3;
+  constexpr unsigned int checkpoint_format = 4;
 
   /** The line after HDF5's part of the file, of a length that hangs on nothing. */
   inline std::string end_of_checkpoint(const std::uint64_t n_bytes, const std::uint64_t checksum)

@@ -3,6 +3,10 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace Talus
 {
   using namespace dealii;
@@ -36,11 +40,11 @@ namespace Talus
       visitor("kinetic energy", "energy", totals.kinetic_energy);
       visitor("strain energy", "energy", totals.strain_energy);
       for (unsigned int d = 0; d < dim; ++d)
-        visitor(std::string("momentum_") + "xyz"[d], "mass length/time", totals.momentum[d]);
+        visitor(std::string("momentum ") + "xyz"[d], "mass length/time", totals.momentum[d]);
       for (unsigned int i = 0; i < totals.n_rotations; ++i)
-        visitor(std::string("angular momentum_") + "xyz"[dim == 2 ? 2 : i], spin, totals.angular_momentum[i]);
+        visitor(std::string("angular momentum ") + "xyz"[dim == 2 ? 2 : i], spin, totals.angular_momentum[i]);
       for (unsigned int i = 0; i < totals.n_rotations; ++i)
-        visitor(std::string("total angular momentum_") + "xyz"[dim == 2 ? 2 : i], spin,
+        visitor(std::string("total angular momentum ") + "xyz"[dim == 2 ? 2 : i], spin,
                 totals.total_angular_momentum[i]);
     }
 
@@ -68,12 +72,24 @@ namespace Talus
   void Totals<dim>::add_to(Reduction &reduction)
   {
     visit(*this, [&](const auto &, const auto &, double &value) { reduction.sum(value); });
+    reduction.sum(plastic_work);
+    reduction.max(greatest_speed);
+    for (auto *position : {&least, &greatest})
+      for (unsigned int d = 0; d < dim; ++d)
+        reduction.max((*position)[d]);
   }
 
   template <int dim>
   void Totals<dim>::add_to(Table &table) const
   {
     visit(*this, [&](const auto &name, const auto &unit, const double &value) { table.add(name, unit, value); });
+    table.add("plastic work", "energy", plastic_work);
+    table.add("greatest speed", "length/time", greatest_speed);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      table.add(std::string("least ") + "xyz"[d], "length", least[d]);
+      table.add(std::string("greatest ") + "xyz"[d], "length", greatest[d]);
+    }
   }
 
   template <int dim>
@@ -85,18 +101,26 @@ namespace Talus
     const auto mass   = particles.component(particles.mass, 0);
     const auto volume = particles.component(particles.volume, 0);
 
-    Totals<dim> sum;
+    Totals<dim>    sum;
+    Tensor<1, dim> least_negated;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum.greatest[d] = least_negated[d] = -std::numeric_limits<double>::infinity();
+    double greatest_square = 0;
     for (unsigned int p = 0; p < particles.size(); ++p)
     {
       Tensor<1, dim> x_p, v_p;
       for (unsigned int d = 0; d < dim; ++d)
       {
-        x_p[d] = x[d][p];
-        v_p[d] = v[d][p];
+        x_p[d]           = x[d][p];
+        v_p[d]           = v[d][p];
+        least_negated[d] = std::max(least_negated[d], -x_p[d]);
+        sum.greatest[d]  = std::max(sum.greatest[d], x_p[d]);
       }
+      const double square = v_p.norm_square();
+      greatest_square     = std::max(greatest_square, square);
       sum.mass += mass[p];
       sum.volume += volume[p];
-      sum.kinetic_energy += 0.5 * mass[p] * v_p.norm_square();
+      sum.kinetic_energy += 0.5 * mass[p] * square;
       sum.momentum += mass[p] * v_p;
       const auto orbital = mass[p] * rotation(outer_product(v_p, x_p));
       sum.angular_momentum += orbital;
@@ -104,10 +128,17 @@ namespace Talus
     }
     add_energies(particles, materials, sum);
 
+    sum.greatest_speed = std::sqrt(greatest_square);
+    sum.least          = least_negated;
     Reduction reduction;
     sum.add_to(reduction);
-    reduction.sum(sum.plastic_work);
     reduction.run(communicator);
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const bool has_particles = std::isfinite(sum.greatest[d]);
+      sum.least[d]             = has_particles ? -sum.least[d] : 0.;
+      sum.greatest[d]          = has_particles ? sum.greatest[d] : 0.;
+    }
     return sum;
   }
 

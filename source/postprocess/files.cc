@@ -94,7 +94,7 @@ namespace Talus
   {
     // parameters.prm is not among them: it may be the very file from which the run is repeated.
     static const std::regex pattern(
-      "((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv)|checkpoint_[0-9]{8,10}\\.h5|"
+      "((particles|grid|fem)(_[0-9]{5,})?\\.(vtu|pvtu|pvd|csv|h5|xdmf)|checkpoint_[0-9]{8,10}\\.h5|"
       "failure_(grid_)?[0-9]{8,10}(\\.rank[0-9]+)?\\.(vtu|csv)|"
       "((statistics|safety)(_[^/]+)?|probes|element|comparison|load_curve|verification)\\.csv|log\\.txt|summary\\.json)(\\.tmp)?");
     return std::regex_match(name, pattern);
@@ -102,7 +102,7 @@ namespace Talus
 
   void remove_numbered_files(const std::string &directory, const unsigned int first)
   {
-    static const std::regex pattern("(?:particles|grid)(?:_([0-9]{5,9}))?\\.(?:vtu|pvd|csv)(\\.tmp)?"),
+    static const std::regex pattern("(?:particles|grid)(?:_([0-9]{5,9}))?\\.(?:vtu|pvd|csv|h5|xdmf)(\\.tmp)?"),
       of_failure("failure_.*\\.tmp");
     std::error_code       error;
     std::vector<fs::path> old;

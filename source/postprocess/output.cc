@@ -1,6 +1,7 @@
 #include <talus/core/exceptions.h>
 #include <talus/postprocess/files.h>
 #include <talus/postprocess/grid_output.h>
+#include <talus/postprocess/hdf5_output.h>
 #include <talus/postprocess/output.h>
 #include <talus/postprocess/particle_output.h>
 #include <talus/postprocess/vtu.h>
@@ -35,19 +36,24 @@ namespace Talus
       return {time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed};
     }
 
-    /** Rank after rank: the head, a piece of each, the foot. */
-    void write_vtu_file(const std::string &piece, const std::string &final_name, const DataOutBase::VtkFlags &flags,
+    /** Rank after rank: the head, what `append_to` appends on each, the foot. */
+    template <class AppendTo>
+    void write_vtu_file(const AppendTo &append_to, const std::string &final_name, const DataOutBase::VtkFlags &flags,
                         MPI_Comm communicator)
     {
-      const std::string  temporary = final_name + ".tmp";
-      const RunError     failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
-      const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
-      std::ostringstream head, foot;
+      const std::string        temporary = final_name + ".tmp";
+      const RunError           failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
+      const unsigned int       my_rank = Utilities::MPI::this_mpi_process(communicator);
+      std::ostringstream       head, foot;
+      std::vector<std::string> parts;
       if (my_rank == 0)
         DataOutBase::write_vtu_header(head, flags);
+      append(head.str(), parts);
+      append_to(parts);
       if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
         DataOutBase::write_vtu_footer(foot);
-      AssertThrow(write_in_parallel(temporary, head.str() + piece + foot.str(), communicator), failure);
+      append(foot.str(), parts);
+      AssertThrow(write_in_parallel(temporary, parts, communicator), failure);
       run_on_root(
         [&] {
           const bool is_good = is_complete_vtu(temporary);
@@ -60,11 +66,25 @@ namespace Talus
     }
 
     template <int dim>
-    std::string grid_piece(const Grid<dim> &grid, const bool has_all_cells, DataOutBase::VtkFlags flags)
+    void write_particles(const WorkingSet<dim> &particles, const std::vector<ParticleField<dim>> &fields,
+                         const std::string &name, const DataOutBase::VtkFlags &flags, MPI_Comm communicator)
     {
-      GridOutput<dim> data(grid, has_all_cells);
+      write_vtu_file([&](std::vector<std::string> &parts) { append_piece(particles, fields, parts); }, name, flags,
+                     communicator);
+    }
+
+    template <int dim>
+    void write_nodes(const Grid<dim> &grid, const bool has_all_cells, const std::string &name,
+                     DataOutBase::VtkFlags flags, MPI_Comm communicator)
+    {
       flags.physical_units = {{"mass", "mass"}, {"velocity", "length/time"}};
-      return vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags);
+      write_vtu_file(
+        [&](std::vector<std::string> &parts) {
+          GridOutput<dim> data(grid, has_all_cells);
+          append(vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags),
+                 parts);
+        },
+        name, flags, communicator);
     }
   } // namespace
 
@@ -92,6 +112,7 @@ namespace Talus
     add_parameter("Grid", with_grid, "Write mass and velocity of the nodes near material as well.");
     add_parameter("Whole grid", with_whole_grid, "Write all cells of the grid, and not only those near material.");
     add_parameter("CSV", with_csv, "Write the particles as a CSV table as well.");
+    add_parameter("HDF5", with_hdf5, "Write the particles as an HDF5 file as well, and particles.xdmf for ParaView.");
   }
 
   template <int dim>
@@ -125,6 +146,8 @@ namespace Talus
         for (const std::string name : {"particles", "grid"})
           if (!times.empty() && (with_grid || name == "particles"))
             write_series(name);
+        if (with_hdf5)
+          write_hdf5_series();
       },
       communicator);
   }
@@ -134,6 +157,7 @@ namespace Talus
   {
     const Archive::Scope scope(archive, "output");
     archive("times", times);
+    archive("numbers", numbers);
     archive("last step", last_step);
     find_next(); // by the interval that the run has now
   }
@@ -193,12 +217,25 @@ namespace Talus
     last_step = step;
     find_next();
 
-    const DataOutBase::VtkFlags flags = vtk_flags(time, step);
-    write_vtu(particle_piece(particles, fields), "particles", flags);
+    const DataOutBase::VtkFlags flags   = vtk_flags(time, step);
+    const auto                  path_of = [&](const std::string &name, const std::string &ending) {
+      return path + "/" + file_name(name, number, ending);
+    };
+    write_particles(particles, fields, path_of("particles", ".vtu"), flags, communicator);
+    run_on_root([&] { write_series("particles"); }, communicator);
     if (with_csv)
-      write_particle_csv(path + "/" + file_name("particles", number, ".csv"), particles, fields, time, communicator);
-    if (with_grid)
-      write_vtu(grid_piece(grid, with_whole_grid, flags), "grid", flags);
+      write_particle_csv(path_of("particles", ".csv"), particles, fields, time, communicator);
+    numbers.push_back(
+      with_hdf5 ? static_cast<double>(Utilities::MPI::sum<std::uint64_t>(particles.size(), communicator)) : -1.);
+    if (with_hdf5)
+    {
+      write_particle_hdf5(path_of("particles", ".h5"), particles, fields, communicator);
+      run_on_root([&] { write_hdf5_series(); }, communicator);
+    }
+    if (!with_grid)
+      return;
+    write_nodes(grid, with_whole_grid, path_of("grid", ".vtu"), flags, communicator);
+    run_on_root([&] { write_series("grid"); }, communicator);
   }
 
   template <int dim>
@@ -206,14 +243,6 @@ namespace Talus
                                      const std::string &ending) const
   {
     return name + "_" + Utilities::int_to_string(number, 5) + ending;
-  }
-
-  template <int dim>
-  void Output<dim>::write_vtu(const std::string &piece, const std::string &name,
-                              const DataOutBase::VtkFlags &flags) const
-  {
-    write_vtu_file(piece, path + "/" + file_name(name, times.size() - 1, ".vtu"), flags, communicator);
-    run_on_root([&] { write_series(name); }, communicator);
   }
 
   template <int dim>
@@ -232,12 +261,11 @@ namespace Talus
                       name =
                         path + "/failure_" + number +
                         (is_part ? ".rank" + std::to_string(Utilities::MPI::this_mpi_process(this->communicator)) : "");
-    write_vtu_file(particle_piece(particles, chosen), name + ".vtu", flags, communicator);
+    write_particles(particles, chosen, name + ".vtu", flags, communicator);
     if (with_csv)
       write_particle_csv(name + ".csv", particles, chosen, time, communicator);
     if (with_grid && grid)
-      write_vtu_file(grid_piece(*grid, with_whole_grid, flags), path + "/failure_grid_" + number + ".vtu", flags,
-                     communicator);
+      write_nodes(*grid, with_whole_grid, path + "/failure_grid_" + number + ".vtu", flags, communicator);
     return name + ".vtu";
   }
 
@@ -249,6 +277,16 @@ namespace Talus
       files.emplace_back(times[i], file_name(name, i, ".vtu"));
     write_complete_file(path + "/" + name + ".pvd",
                         [&](std::ostream &out) { DataOutBase::write_pvd_record(out, files); });
+  }
+
+  template <int dim>
+  void Output<dim>::write_hdf5_series() const
+  {
+    std::vector<Hdf5Frame> frames;
+    for (unsigned int i = 0; i < numbers.size(); ++i)
+      if (numbers[i] >= 0)
+        frames.push_back({times[i], file_name("particles", i, ".h5"), static_cast<std::uint64_t>(numbers[i])});
+    write_complete_file(path + "/particles.xdmf", [&](std::ostream &out) { write_xdmf(out, frames, fields); });
   }
 
   template class Output<2>;

@@ -2,6 +2,7 @@
 #include <talus/core/parameters.h>
 #include <talus/postprocess/particle_fields.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
@@ -93,6 +94,8 @@ namespace Talus
 
       add("body", "1", 1, [](const Set &set, const unsigned int p, double *value) { *value = set.body[p]; });
       add("material", "1", 1, [](const Set &set, const unsigned int p, double *value) { *value = set.material_of(p); });
+      add("rank", "1", 1,
+          [](const Set &, unsigned int, double *value) { *value = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD); });
       add("displacement", "length", dim, [](const Set &set, const unsigned int p, double *u) {
         for (unsigned int d = 0; d < dim; ++d)
           u[d] = set.component(set.position, d)[p] - set.component(set.initial_position, d)[p];

@@ -2,6 +2,8 @@
 #include <talus/postprocess/particle_output.h>
 #include <talus/postprocess/vtu.h>
 
+#include "particle_layout.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -14,51 +16,8 @@ namespace Talus
 
   namespace
   {
-    /** Where the components of a field stand in an array of a VTU file, and what the others are. */
-    struct Layout
-    {
-      std::vector<unsigned int> place; // of each component
-      std::vector<float>        others;
-      std::vector<std::string>  names; // of components; none where ParaView has its own
-    };
-
-    template <int dim>
-    Layout layout_of(const ParticleField<dim> &field)
-    {
-      const unsigned int n       = field.components.size();
-      const auto         ends_in = [&](const unsigned int c, const std::string &end) {
-        const std::string &name = field.components[c];
-        return name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-      };
-      if (n == 1)
-        return {{0}, {0.f}, {}};
-      Layout layout;
-      for (unsigned int c = 0; c < n; ++c)
-        layout.place.push_back(c);
-      if (field.is_vector)
-        layout.others.assign(3, 0.f);
-      else if (n >= 4 && ends_in(0, "_xx") && ends_in(2, "_zz"))
-      {
-        // xx, yy, zz, xy, xz, yz
-        layout.others.assign(6, 0.f);
-        if (n == 6)
-          std::swap(layout.place[4], layout.place[5]);
-        layout.names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-      }
-      else if (n == dim * dim && ends_in(0, "_xx") && ends_in(1, "_xy"))
-      {
-        layout.others.assign(9, 0.f);
-        for (unsigned int c = 0; c < n; ++c)
-          layout.place[c] = 3 * (c / dim) + c % dim;
-        if (dim == 2 && field.name == "deformation gradient")
-          layout.others[8] = 1;
-        layout.names = {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
-      }
-      return layout;
-    }
-
     /** Field names have no characters that XML would mind. */
-    std::string array_head(const std::string &type, const std::string &name, const Layout &layout,
+    std::string array_head(const std::string &type, const std::string &name, const ArrayLayout &layout,
                            const std::string &unit)
     {
       std::string text = "    <DataArray type=\"" + type + "\" Name=\"" + name + "\"";
@@ -69,83 +28,80 @@ namespace Talus
       return text + (unit.empty() ? "" : " units=\"" + unit + "\"") + " format=\"binary\">\n";
     }
 
-    template <class Number>
-    std::string array_text(const std::string &type, const std::string &name, const std::vector<Number> &numbers)
+    /** An array of what `add` gives an array for each particle. */
+    template <class Add>
+    std::string array_text(const std::string &head, const unsigned int n, const Add &add)
     {
-      return array_head(type, name, {{}, {0.f}, {}}, "") + vtu_numbers(numbers) + "    </DataArray>\n";
+      VtuArray array;
+      for (unsigned int p = 0; p < n; ++p)
+        add(array, p);
+      return head + array.text() + "    </DataArray>\n";
+    }
+
+    template <class Value>
+    std::string scalar_text(const std::string &type, const std::string &name, const unsigned int n, const Value &value)
+    {
+      return array_text(array_head(type, name, {{}, {0.f}, {}}, ""), n,
+                        [&](VtuArray &array, const unsigned int p) { array.add(value(p)); });
     }
 
     /** A field of all particles; one that is neither vector nor tensor as an array for each component. */
     template <int dim>
-    void append_field(const WorkingSet<dim> &particles, const ParticleField<dim> &field, std::string &text)
+    void append_field(const WorkingSet<dim> &particles, const ParticleField<dim> &field,
+                      std::vector<std::string> &parts)
     {
-      const Layout        layout = layout_of(field);
-      const unsigned int  n = field.components.size(), width = layout.others.size();
-      std::vector<double> values(n);
-      if (width == 0)
+      const ArrayLayout   layout = layout_of(field);
+      std::vector<double> values(field.components.size());
+      if (layout.others.empty())
       {
-        for (unsigned int c = 0; c < n; ++c)
-        {
-          std::vector<float> numbers(particles.size());
-          for (unsigned int p = 0; p < particles.size(); ++p)
-          {
-            field.evaluate(particles, p, values.data());
-            numbers[p] = static_cast<float>(values[c]);
-          }
-          text += array_head("Float32", field.components[c], {{}, {0.f}, {}}, field.unit) + vtu_numbers(numbers) +
-                  "    </DataArray>\n";
-        }
+        for (unsigned int c = 0; c < values.size(); ++c)
+          append(array_text(array_head("Float32", field.components[c], {{}, {0.f}, {}}, field.unit), particles.size(),
+                            [&](VtuArray &array, const unsigned int p) {
+                              field.evaluate(particles, p, values.data());
+                              array.add(static_cast<float>(values[c]));
+                            }),
+                 parts);
         return;
       }
-      std::vector<float> numbers(std::size_t{width} * particles.size());
-      for (unsigned int p = 0; p < particles.size(); ++p)
-      {
-        float *to = &numbers[std::size_t{width} * p];
-        std::copy(layout.others.begin(), layout.others.end(), to);
-        field.evaluate(particles, p, values.data());
-        for (unsigned int c = 0; c < n; ++c)
-          to[layout.place[c]] = static_cast<float>(values[c]);
-      }
-      std::string name = field.name;
-      std::replace(name.begin(), name.end(), ' ', '_');
-      text += array_head("Float32", name, layout, field.unit) + vtu_numbers(numbers) + "    </DataArray>\n";
-    }
-
-    template <int dim>
-    std::string cells_text(const unsigned int n)
-    {
-      std::vector<std::int32_t> connectivity(n), offsets(n);
-      std::iota(connectivity.begin(), connectivity.end(), 0);
-      std::iota(offsets.begin(), offsets.end(), 1);
-      constexpr std::uint8_t vertex = 1;
-      return "  <Cells>\n" + array_text("Int32", "connectivity", connectivity) +
-             array_text("Int32", "offsets", offsets) +
-             array_text("UInt8", "types", std::vector<std::uint8_t>(n, vertex)) + "  </Cells>\n";
+      std::vector<float> numbers = layout.others;
+      append(array_text(array_head("Float32", array_name(field), layout, field.unit), particles.size(),
+                        [&](VtuArray &array, const unsigned int p) {
+                          field.evaluate(particles, p, values.data());
+                          for (unsigned int c = 0; c < values.size(); ++c)
+                            numbers[layout.place[c]] = static_cast<float>(values[c]);
+                          array.add(numbers.data(), numbers.size());
+                        }),
+             parts);
     }
   } // namespace
 
   template <int dim>
-  std::string particle_piece(const WorkingSet<dim> &particles, const std::vector<ParticleField<dim>> &fields)
+  void append_piece(const WorkingSet<dim> &particles, const std::vector<ParticleField<dim>> &fields,
+                    std::vector<std::string> &parts)
   {
-    const unsigned int  n = particles.size();
-    const auto          x = particles.template components<dim>(particles.position);
-    std::vector<double> places(3 * std::size_t{n}, 0.), ids(particles.id.begin(), particles.id.end());
-    std::vector<float>  bodies(particles.body.begin(), particles.body.end()), materials(n);
-    for (unsigned int p = 0; p < n; ++p)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        places[3 * std::size_t{p} + d] = x[d][p];
-      materials[p] = static_cast<float>(particles.material_of(p));
-    }
-    const std::string number = std::to_string(n);
-    std::string text = "<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n  <Points>\n" +
-                       "    <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n" +
-                       vtu_numbers(places) + "    </DataArray>\n  </Points>\n" + cells_text<dim>(n) +
-                       "  <PointData Scalars=\"scalars\">\n" + array_text("Float64", "id", ids) +
-                       array_text("Float32", "body", bodies) + array_text("Float32", "material", materials);
+    const unsigned int n      = particles.size();
+    const auto         x      = particles.template components<dim>(particles.position);
+    const std::string  number = std::to_string(n);
+    append("<Piece NumberOfPoints=\"" + number + "\" NumberOfCells=\"" + number + "\">\n  <Points>\n", parts);
+    append(array_text("    <DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"binary\">\n", n,
+                      [&](VtuArray &array, const unsigned int p) {
+                        for (unsigned int d = 0; d < 3; ++d)
+                          array.add(d < dim ? x[d][p] : 0.);
+                      }),
+           parts);
+    append("  </Points>\n  <Cells>\n", parts);
+    constexpr std::uint8_t vertex = 1;
+    append(scalar_text("Int32", "connectivity", n, [](const unsigned int p) { return std::int32_t(p); }), parts);
+    append(scalar_text("Int32", "offsets", n, [](const unsigned int p) { return std::int32_t(p + 1); }), parts);
+    append(scalar_text("UInt8", "types", n, [](unsigned int) { return vertex; }), parts);
+    append("  </Cells>\n  <PointData Scalars=\"scalars\">\n", parts);
+    append(scalar_text("Float64", "id", n, [&](const unsigned int p) { return double(particles.id[p]); }), parts);
+    append(scalar_text("Float32", "body", n, [&](const unsigned int p) { return float(particles.body[p]); }), parts);
+    append(scalar_text("Float32", "material", n, [&](const unsigned int p) { return float(particles.material_of(p)); }),
+           parts);
     for (const auto &field : fields)
-      append_field(particles, field, text);
-    return text + "  </PointData>\n</Piece>\n";
+      append_field(particles, field, parts);
+    append("  </PointData>\n</Piece>\n", parts);
   }
 
   namespace
@@ -234,8 +190,8 @@ namespace Talus
     run_on_root([&] { write_complete_file(path, write); }, communicator);
   }
 
-  template std::string particle_piece(const WorkingSet<2> &, const std::vector<ParticleField<2>> &);
-  template std::string particle_piece(const WorkingSet<3> &, const std::vector<ParticleField<3>> &);
+  template void append_piece(const WorkingSet<2> &, const std::vector<ParticleField<2>> &, std::vector<std::string> &);
+  template void append_piece(const WorkingSet<3> &, const std::vector<ParticleField<3>> &, std::vector<std::string> &);
   template void write_particle_csv(const std::string &, const WorkingSet<2> &, const std::vector<ParticleField<2>> &,
                                    const double, MPI_Comm);
   template void write_particle_csv(const std::string &, const WorkingSet<3> &, const std::vector<ParticleField<3>> &,

@@ -6,12 +6,11 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <sstream>
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 namespace Talus
 {
@@ -41,24 +40,54 @@ namespace Talus
     }
   } // namespace
 
-  template <class Number>
-  std::string vtu_numbers(const std::vector<Number> &numbers)
+  void VtuArray::Deleter::operator()(libdeflate_compressor *compressor) const
   {
-    if (numbers.empty())
+    libdeflate_free_compressor(compressor);
+  }
+
+  VtuArray::VtuArray() : compressor(libdeflate_alloc_compressor(1)) { AssertThrow(compressor, ExcOutOfMemory()); }
+
+  void VtuArray::add_bytes(const void *bytes, std::size_t n)
+  {
+    const auto *from = static_cast<const unsigned char *>(bytes);
+    while (n > 0)
+    {
+      const std::size_t part = std::min(n, block_size - block.size());
+      block.insert(block.end(), from, from + part);
+      from += part;
+      n -= part;
+      if (block.size() == block_size)
+        compress();
+    }
+  }
+
+  void VtuArray::compress()
+  {
+    const std::size_t begin = compressed.size();
+    compressed.resize(begin + libdeflate_zlib_compress_bound(compressor.get(), block.size()));
+    const std::size_t n = libdeflate_zlib_compress(compressor.get(), block.data(), block.size(), &compressed[begin],
+                                                   compressed.size() - begin);
+    AssertThrow(n > 0, ExcInternalError());
+    compressed.resize(begin + n);
+    sizes.push_back(static_cast<std::uint32_t>(n));
+    last_size = static_cast<std::uint32_t>(block.size());
+    block.clear();
+  }
+
+  std::string VtuArray::text()
+  {
+    if (!block.empty())
+      compress();
+    if (sizes.empty())
       return "";
-    // Block count, size, size of the last block, compressed size; the block.
-    const uLong                n_bytes = numbers.size() * sizeof(Number);
-    std::vector<unsigned char> block(compressBound(n_bytes));
-    uLong                      n_compressed = block.size();
-    const int                  status =
-      compress2(block.data(), &n_compressed, reinterpret_cast<const Bytef *>(numbers.data()), n_bytes, Z_BEST_SPEED);
-    AssertThrow(status == Z_OK, ExcInternalError());
-    const std::array<std::uint32_t, 4> head = {{1, static_cast<std::uint32_t>(n_bytes),
-                                                static_cast<std::uint32_t>(n_bytes),
-                                                static_cast<std::uint32_t>(n_compressed)}};
-    std::string                        text;
-    append_base64(reinterpret_cast<const unsigned char *>(head.data()), sizeof(head), text);
-    append_base64(block.data(), n_compressed, text);
+    // Number of blocks, size of all but the last, of the last, compressed sizes; the blocks.
+    const auto                 n_blocks = static_cast<std::uint32_t>(sizes.size());
+    std::vector<std::uint32_t> head{n_blocks, n_blocks == 1 ? last_size : static_cast<std::uint32_t>(block_size),
+                                    last_size};
+    head.insert(head.end(), sizes.begin(), sizes.end());
+    std::string text;
+    append_base64(reinterpret_cast<const unsigned char *>(head.data()), sizeof(head[0]) * head.size(), text);
+    append_base64(compressed.data(), compressed.size(), text);
     return text + '\n';
   }
 
@@ -73,13 +102,13 @@ namespace Talus
     DataOutBase::write_vtu_main(patches, names, ranges, flags, out);
     std::string text = out.str();
 
-    std::vector<double> places;
+    VtuArray places;
     for (const auto &patch : patches)
     {
       Assert(patch.n_subdivisions == 1 && !patch.points_are_available, ExcNotImplemented());
       for (unsigned int v = 0; v < patch.data.n_cols(); ++v)
         for (unsigned int d = 0; d < 3; ++d)
-          places.push_back(d < spacedim ? patch.vertices[v][d] : 0.);
+          places.add(d < spacedim ? patch.vertices[v][d] : 0.);
     }
     // The first array after the points' tag is theirs, in single precision; a rank without patches has none.
     const std::string single = "Float32";
@@ -88,12 +117,22 @@ namespace Talus
       const auto type = text.find(single, tag);
       text.replace(type, single.size(), "Float64");
       const auto body = text.find(">\n", type) + 2;
-      text.replace(body, text.find("</DataArray>", body) - body, vtu_numbers(places));
+      text.replace(body, text.find("</DataArray>", body) - body, places.text());
     }
     return text;
   }
 
-  bool write_in_parallel(const std::string &path, const std::string &part, MPI_Comm communicator)
+  void append(std::string text, std::vector<std::string> &parts)
+  {
+    // A string that grows copies what it holds.
+    constexpr std::size_t limit = 1u << 24;
+    if (parts.empty() || parts.back().size() + text.size() > limit)
+      parts.push_back(std::move(text));
+    else
+      parts.back() += text;
+  }
+
+  bool write_in_parallel(const std::string &path, const std::vector<std::string> &parts, MPI_Comm communicator)
   {
     const auto all = [&](const int status) {
       return Utilities::MPI::min(status == MPI_SUCCESS ? 1 : 0, communicator) == 1;
@@ -107,23 +146,29 @@ namespace Talus
     if (!all(MPI_File_open(communicator, path.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file)))
       return false;
 
-    const std::uint64_t size   = part.size();
-    std::uint64_t       offset = 0;
+    // MPI counts in ints.
+    constexpr std::size_t                             portion = 1u << 30;
+    std::vector<std::pair<const char *, std::size_t>> portions;
+    std::uint64_t                                     size = 0, offset = 0;
+    for (const auto &part : parts)
+    {
+      for (std::size_t begin = 0; begin < part.size(); begin += portion)
+        portions.emplace_back(part.data() + begin, std::min(portion, part.size() - begin));
+      size += part.size();
+    }
     MPI_Exscan(&size, &offset, 1, MPI_UINT64_T, MPI_SUM, communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       offset = 0;
-    // MPI counts in ints.
-    constexpr std::uint64_t portion = 1u << 30;
-    const std::uint64_t     most    = Utilities::MPI::max(size, communicator);
-    bool                    is_good = true;
-    for (std::uint64_t begin = 0; begin < most; begin += portion)
+    portions.resize(Utilities::MPI::max(portions.size(), communicator), {nullptr, 0});
+    bool is_good = true;
+    for (const auto &[from, n] : portions)
     {
-      const std::uint64_t from = std::min(begin, size), n = std::min(size - from, portion);
-      MPI_Status          status;
-      int                 n_written = 0;
-      const int           result = MPI_File_write_at_all(file, offset + from, part.data() + from, n, MPI_CHAR, &status);
+      MPI_Status status;
+      int        n_written = 0;
+      const int  result    = MPI_File_write_at_all(file, offset, from, n, MPI_CHAR, &status);
       MPI_Get_count(&status, MPI_CHAR, &n_written);
       is_good = is_good && all(result == MPI_SUCCESS && n_written == static_cast<int>(n) ? MPI_SUCCESS : MPI_ERR_IO);
+      offset += n;
     }
     is_good = all(MPI_File_close(&file)) && is_good;
     if (!is_good && Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -140,8 +185,4 @@ namespace Talus
   INSTANTIATE(2, 2)
   INSTANTIATE(3, 3)
 #undef INSTANTIATE
-  template std::string vtu_numbers(const std::vector<float> &);
-  template std::string vtu_numbers(const std::vector<double> &);
-  template std::string vtu_numbers(const std::vector<std::int32_t> &);
-  template std::string vtu_numbers(const std::vector<std::uint8_t> &);
 } // namespace Talus

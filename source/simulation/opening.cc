@@ -82,7 +82,6 @@ namespace Talus
     if (model.account.is_on)
     {
       energy.add_losses_to(table);
-      table.add("plastic work", "energy", totals.plastic_work);
       table.add("unaccounted energy", "energy", [this] {
         return energy.unaccounted(energy.residual(totals.kinetic_energy, totals.strain_energy), totals.plastic_work);
       });

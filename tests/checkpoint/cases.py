@@ -18,7 +18,7 @@ OTHERS = {
     "ghost walls": ("tests/compare/walls_2d.prm", 60, {"Conditions/floor/Account time": 0.05, "Run/Energy account": "true",
                                                       "Conditions/right/Start time": 0.002, "Conditions/right/End time": 0.01}),
     "MUSL": ("tests/compare/disk_2d.prm", 30, {"Run/MUSL": "true", "Run/Mass cutoff": 1e-4, "Materials/rubber/Type": "Mohr-Coulomb",
-                                               "Materials/rubber/Cohesion": 1e3, **PROBES}),
+                                               "Materials/rubber/Cohesion": 1e3, "Output/HDF5": "true", **PROBES}),
     "F-bar": ("tests/compare/disk_2d.prm", 30, {"Run/F-bar": "true", "Materials/rubber/Type": "Hencky",
                                                 "Materials/rubber/Yield stress": 1e4}),
     "F-bar on a mesh": ("tests/compare/disk_2d.prm", 30, {"Run/F-bar": "true", "Grid/Type": "mesh", "Kernel/Type": "UMLS"}),

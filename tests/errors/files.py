@@ -8,14 +8,18 @@ import zlib
 
 
 def decode(kind, body):
-    """The numbers of a compressed base64 array, as deal.II writes it."""
+    """The numbers of an array in base64: a head of 32-bit numbers, then blocks that zlib reads."""
     body = body.strip()
     if not body:  # a rank without particles
         return ()
-    # Four 32-bit numbers head the one block: count, size, size of the last block, compressed size.
-    header = struct.unpack("<4I", base64.b64decode(body[:24])[:16])
-    data = zlib.decompress(base64.b64decode(body[24:]))
-    assert len(data) == header[1]
+    n_blocks, size, last = struct.unpack("<3I", base64.b64decode(body[:16]))
+    length = -(-4 * (3 + n_blocks) // 3) * 4  # of the head in base64: count, sizes of a block and of the last, compressed sizes
+    compressed = struct.unpack(f"<{n_blocks}I", base64.b64decode(body[:length])[12:])
+    blocks, data, begin = base64.b64decode(body[length:]), b"", 0
+    for n in compressed:
+        data += zlib.decompress(blocks[begin:begin + n])
+        begin += n
+    assert begin == len(blocks) and len(data) == (n_blocks - 1) * size + last
     size, letter = (4, "f") if kind == "Float32" else (8, "d")
     return struct.unpack(f"<{len(data) // size}{letter}", data)
 

@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import sys
+from xml.etree import ElementTree
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -92,6 +93,42 @@ def case_sweep(runs):
     for sweep, message in (("Transfer", "needs \"Section/Entry"), ("Run/Stepper = " + "|".join("x" * 20000), "more than 10000")):
         status, text = runs.start([os.path.join(HERE, PRM), "--sweep", sweep])
         runs.check(f"{sweep[:20]}: {text.strip()[:80]}", status != 1 or message not in text, 0.5)
+
+
+def case_hdf5(runs):
+    """The HDF5 files have what the tables have, tensors in the order of XDMF; the list names what lies in them."""
+    import h5py
+    import numpy as np
+    components = {"velocity": "x y z", "velocity_gradient": "xx xy xz yx yy yz zx zy zz", "stress": "xx xy xz yy yz zz",
+                  "affine_moment": "xx xy xz yx yy yz zx zy zz"}
+    for prm, dim in ((PRM, 2), (os.path.join(ROOT, "tests/compare/balls_3d.prm"), 3)):
+        directory = runs.run(prm, f"hdf5 {dim}", "Run/Number of steps = 4", "Output/Step interval = 2", "Output/HDF5 = true", "Output/CSV = true",
+                             "Transfer/Type = APIC", "Output/Particle fields = velocity, velocity gradient, stress, pressure, affine moment")
+        files = sorted(name for name in os.listdir(directory) if re.fullmatch(r"particles_\d+\.h5", name))
+        runs.check(f"{dim}D: {files}", len(files) != 3, 0.5)
+        root = ElementTree.parse(os.path.join(directory, "particles.xdmf")).getroot()
+        grids = root.findall("./Domain/Grid/Grid")
+        runs.check(f"{dim}D: as many in the list", len(grids) != 3, 0.5)
+        for grid, name in zip(grids, files):
+            table = columns_of(os.path.join(directory, name.replace(".h5", ".csv")))
+            with h5py.File(os.path.join(directory, name)) as file:
+                order, seen = np.argsort(file["id"][:]), set()
+                for item in grid.iter("DataItem"):
+                    path, data = item.text.split(":/")
+                    size = tuple(int(n) for n in item.get("Dimensions").split())
+                    runs.check(f"{name}: {data} {size}", path != name or file[data].shape != size or
+                               file[data].dtype.itemsize != int(item.get("Precision", 4)), 0.5)
+                    seen.add(data)
+                runs.check("all are named", seen != set(file), 0.5)
+                points = file["points"][:][order]
+                wrong = max(np.abs(points[:, d] - table["xyz"[d]]).max() for d in range(dim))
+                for data in sorted(seen - {"points", "vertices", "id"}):
+                    numbers = file[data][:][order].reshape(len(order), -1)
+                    names = [data + (f"_{c}" if c else "") for c in components.get(data, "").split(" ")]
+                    for column, of_table in zip(numbers.T, names):
+                        expected = np.float32(table[of_table]) if of_table in table else np.zeros(len(order))
+                        wrong = max(wrong, np.abs(column - expected).max())
+                runs.check(f"{name}: as in the table", wrong, 1e-300)
 
 
 def case_topics(runs):

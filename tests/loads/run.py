@@ -36,15 +36,15 @@ def case_incline(runs, prm, direction):
     velocity = "; ".join(str(start * direction.get(axis, 0)) for axis in ("xyz" if len(direction) > 1 else "xy"))
 
     def along(s, k):
-        return sum(s[f"momentum_{axis}"][k] * n for axis, n in direction.items()) / s["mass"][k]
+        return sum(s[f"momentum {axis}"][k] * n for axis, n in direction.items()) / s["mass"][k]
 
     for mu in (0, 0.2, 0.4):
         s = runs.statistics(prm, f"mu_{mu}", f"Conditions/slope/Friction coefficient = {mu}",
                             f"Bodies/block/Velocity = {velocity}")
         gained = along(s, -1) - along(s, 0)
-        across = math.hypot(*(s[f"momentum_{axis}"][-1] / s["mass"][-1] - along(s, -1) * n
+        across = math.hypot(*(s[f"momentum {axis}"][-1] / s["mass"][-1] - along(s, -1) * n
                               for axis, n in direction.items()))
-        wanted = g * (math.sin(angle) - mu * math.cos(angle)) * s["time"][-1] - mu * s["momentum_y"][-1] / s["mass"][-1]
+        wanted = g * (math.sin(angle) - mu * math.cos(angle)) * s["time"][-1] - mu * s["momentum y"][-1] / s["mass"][-1]
         runs.check(f"mu = {mu}: velocity gained {gained:.5g} for {wanted:.5g}", (gained - wanted) / abs(wanted), 1e-3)
         runs.check(f"mu = {mu}: direction", across / start, 5e-3)
     ramped = {axis: f"{g * math.sin(angle) * n} * min(1, 5*t)" for axis, n in direction.items()}
@@ -95,7 +95,7 @@ def case_bed(runs, prm, dim, angles):
             settings, t, n = bed(degrees, dim, kind, 0.2)
             velocity = f"{0.5 * t[0]}; {'' if dim == 2 else '0; '}{0.5 * t[1]}"
             s = runs.statistics(prm, f"{kind}_{degrees}", *settings, f"Bodies/block/Velocity = {velocity}")
-            along, across = ([(s["momentum_x"][k] * e[0] + s[f"momentum_{up}"][k] * e[1]) / s["mass"][k] for k in (0, -1)]
+            along, across = ([(s["momentum x"][k] * e[0] + s[f"momentum {up}"][k] * e[1]) / s["mass"][k] for k in (0, -1)]
                              for e in (t, n))
             angle = math.radians(degrees)
             wanted = g * (math.sin(angle) - 0.2 * math.cos(angle)) * s["time"][-1] - 0.2 * across[1]
@@ -107,7 +107,7 @@ def case_bed(runs, prm, dim, angles):
     s = runs.statistics(prm, "rest", *settings, f"Bodies/block/Velocity = {'; '.join('0' * dim)}", "Run/End time = 5",
                         "Obstacles/bed/Account time = 0.064", "Output/Time interval = 5", "Output/Statistics interval = 1")
     time = s["time"]
-    v = [(s["momentum_x"][k] * t[0] + s[f"momentum_{up}"][k] * t[1]) / s["mass"][k] for k in range(len(time))]
+    v = [(s["momentum x"][k] * t[0] + s[f"momentum {up}"][k] * t[1]) / s["mass"][k] for k in range(len(time))]
     way = sum((time[k] - time[k - 1]) * v[k] for k in range(1, len(time)))
     runs.check(f"tan 25 degrees = .8 mu, from gravity at once: way {way:.3g} over the length", way / 0.8, 1e-3)
 
@@ -155,7 +155,7 @@ def case_account(runs):
         s = runs.statistics("../../prm/incline.prm", f"mu_{mu}", "Kernel/Boundary treatment = ghost nodes",
                             f"Conditions/slope/Friction coefficient = {mu}", f"Conditions/slope/Account time = {tau}",
                             "Bodies/block/Velocity = 0; 0", "Bodies/block/Initial stress = none", "Run/End time = 1")
-        time, v = s["time"], [p / m for p, m in zip(s["momentum_x"], s["mass"])]
+        time, v = s["time"], [p / m for p, m in zip(s["momentum x"], s["mass"])]
         way = sum((time[k] - time[k - 1]) * v[k] for k in range(1, len(time)))
         if mu > math.tan(math.pi / 6):
             runs.check(f"mu = {mu}: way {way:.5g}", way, 0.01)
@@ -249,7 +249,7 @@ def case_wave(runs, prm):
     runs.check("rms of stress ahead", rms([p["stress_xx"] / stress for p in ahead]), 1e-3)
     s = columns_of(os.path.join(directory, "statistics.csv"))
     load = s["traction pull x"][-1]
-    runs.check("momentum", s["momentum_x"][-1] / (load * s["time"][-1]) - 1, 1e-3)
+    runs.check("momentum", s["momentum x"][-1] / (load * s["time"][-1]) - 1, 1e-3)
     runs.check("work of the load", s["traction work"][-1] / (load * velocity * s["time"][-1]) - 1, 0.05)
 
 

@@ -5,6 +5,7 @@ void test_particle_csv();
 void test_totals();
 void test_directory();
 void test_is_due();
+void test_vtu_arrays();
 void test_vtu();
 void test_grid_output();
 void test_statistics();
@@ -20,6 +21,7 @@ int main(int argc, char **argv)
                     {"totals", test_totals},
                     {"output directory", test_directory},
                     {"output due", test_is_due},
+                    {"VTU arrays", test_vtu_arrays},
                     {"VTU and PVD", test_vtu},
                     {"grid output", test_grid_output},
                     {"statistics", test_statistics},

@@ -1,5 +1,6 @@
 #include <talus/postprocess/files.h>
 #include <talus/postprocess/particle_output.h>
+#include <talus/postprocess/vtu.h>
 
 #include "fixture.h"
 
@@ -189,23 +190,67 @@ namespace
                            [&] { run.output.write(0.25, 14, run.particles, run.grid); });
   }
 
+  /** The numbers of an array's text: a head with the sizes of the blocks, then the blocks, both in base64. */
+  template <class Number>
+  std::vector<Number> decoded(const std::string &text)
+  {
+    const auto word = [](const std::vector<unsigned char> &bytes, const unsigned int i) {
+      std::uint32_t number;
+      std::copy_n(&bytes.at(4 * i), 4, reinterpret_cast<unsigned char *>(&number));
+      return number;
+    };
+    const unsigned int n_blocks = word(Utilities::decode_base64(text.substr(0, 16)), 0);
+    const std::size_t  length   = (4 * (3 + n_blocks) + 2) / 3 * 4; // of the head
+    const auto         head     = Utilities::decode_base64(text.substr(0, length)),
+               bytes            = Utilities::decode_base64(text.substr(length));
+    std::vector<Number> numbers(((n_blocks - 1) * std::size_t{word(head, 1)} + word(head, 2)) / sizeof(Number));
+    bool                is_good = true;
+    std::size_t         from = 0, to = 0;
+    for (unsigned int b = 0; b < n_blocks; ++b)
+    {
+      const uLong size = word(head, b + 1 < n_blocks ? 1 : 2), n_compressed = word(head, 3 + b);
+      uLongf      n = size;
+      is_good       = is_good && from + n_compressed <= bytes.size() && to + size <= numbers.size() * sizeof(Number) &&
+                uncompress(reinterpret_cast<Bytef *>(numbers.data()) + to, &n, &bytes[from], n_compressed) == Z_OK &&
+                n == size;
+      from += n_compressed;
+      to += size;
+    }
+    check_true("compressed as it says", is_good && to == numbers.size() * sizeof(Number));
+    return numbers;
+  }
+
   /** The numbers of the array of a piece that `mark` stands in or before. */
   template <class Number>
   std::vector<Number> numbers_of(const std::string &piece, const std::string &mark)
   {
     const auto        begin = piece.find(">\n", piece.find("<DataArray", piece.rfind('<', piece.find(mark)))) + 2;
     const std::string text  = piece.substr(begin, piece.find('\n', begin) - begin);
-    const auto        bytes = Utilities::decode_base64(text.substr(24));
-    std::uint32_t     size[4];
-    const auto        head = Utilities::decode_base64(text.substr(0, 24));
-    std::copy_n(head.data(), sizeof(size), reinterpret_cast<unsigned char *>(size));
-    std::vector<Number> numbers(size[1] / sizeof(Number));
-    uLongf              n = size[1];
-    check_true("compressed as it says",
-               uncompress(reinterpret_cast<Bytef *>(numbers.data()), &n, bytes.data(), size[3]) == Z_OK);
-    return numbers;
+    return decoded<Number>(text);
   }
 } // namespace
+
+/** Arrays of less than a block, of whole blocks (32768 numbers each), and of blocks and a rest. */
+void test_vtu_arrays()
+{
+  for (const std::size_t n : {0u, 1u, 32768u, 98304u, 100001u})
+  {
+    VtuArray array;
+    for (std::size_t i = 0; i < n; ++i)
+      array.add(std::sin(1. * i));
+    const std::string text = array.text(), name = std::to_string(n) + " numbers";
+    if (n == 0)
+    {
+      check_true(name, text.empty());
+      continue;
+    }
+    const auto numbers = decoded<double>(text.substr(0, text.size() - 1));
+    bool       is_same = numbers.size() == n && text.back() == '\n';
+    for (std::size_t i = 0; i < n; ++i)
+      is_same = is_same && numbers[i] == std::sin(1. * i);
+    check_true(name, is_same);
+  }
+}
 
 void test_vtu()
 {
@@ -217,12 +262,13 @@ void test_vtu()
   auto &particles = run.particles;
   for (unsigned int p = 0; p < particles.size(); ++p)
     particles.component(particles.velocity, 1)[p] = 2. + particles.id[p];
-  const std::string piece =
-    particle_piece(particles, select_particle_fields(particles, {"velocity", "deformation gradient"}, "", ""));
-  const auto places = numbers_of<double>(piece, "<Points>"), ids = numbers_of<double>(piece, "Name=\"id\"");
-  const auto velocities = numbers_of<float>(piece, "Name=\"velocity\""),
-             F          = numbers_of<float>(piece, "Name=\"deformation_gradient\"");
-  double error          = 0;
+  std::vector<std::string> parts;
+  append_piece(particles, select_particle_fields(particles, {"velocity", "deformation gradient"}, "", ""), parts);
+  const std::string piece  = parts.at(0);
+  const auto        places = numbers_of<double>(piece, "<Points>"), ids = numbers_of<double>(piece, "Name=\"id\"");
+  const auto        velocities = numbers_of<float>(piece, "Name=\"velocity\""),
+             F                 = numbers_of<float>(piece, "Name=\"deformation_gradient\"");
+  double error                 = 0;
   for (unsigned int p = 0; p < particles.size(); ++p)
   {
     error += std::abs(places.at(3 * p) - particles.component(particles.position, 0)[p]) +

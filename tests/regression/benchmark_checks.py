@@ -50,7 +50,7 @@ def check_balance(runs, name, s):
             forces = [weight[axis]] + [-s[f"reaction {condition} {axis}"][k] for condition in names]
             impulse += s["step size"][k] * sum(forces)
             passed += s["step size"][k] * sum(map(abs, forces))
-            gained = s["momentum_" + axis][k] + s["lost momentum " + axis][k] - s["momentum_" + axis][0]
+            gained = s["momentum " + axis][k] + s["lost momentum " + axis][k] - s["momentum " + axis][0]
             error = max(error, abs(gained - impulse))
     if passed > 0:
         runs.check(f"{name}: momentum less impulses, over all impulses", error / passed, 1e-16 * n)

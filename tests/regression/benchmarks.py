@@ -34,16 +34,16 @@ def case_disk(runs, transfer):
     delta = 1.3 * 0.4 / 2e7 * 1e3 * (omega * radius)**2 / 2
     share = 2 * h**2 / 3 / (radius**2 / 2)
     s, particles, _ = run(runs, "disk.prm", transfer, *coarse, f"Transfer/Type = {transfer}")
-    momentum = max(map(math.hypot, s["momentum_x"], s["momentum_y"])) / (s["mass"][0] * omega * radius)
+    momentum = max(map(math.hypot, s["momentum x"], s["momentum y"])) / (s["mass"][0] * omega * radius)
     runs.check(f"{transfer}: momentum over M w R", momentum, 1e-12)
     J = mean(p["volume_ratio"] for p in particles)
-    L, K = (s[column][-1] / s[column][0] for column in ("angular momentum_z", "kinetic energy"))
+    L, K = (s[column][-1] / s[column][0] for column in ("angular momentum z", "kinetic energy"))
     widened = math.sqrt(1 + 2 * omega**2 * sum(dt**2 for dt in s["step size"][1:]))
     runs.check(f"{transfer}: volume ratio {J:.6f} for {widened + delta:.6f}", J - widened - delta, delta)
     runs.check(f"{transfer}: (K/K0) J - (L/L0)^2", K * J - L**2, 5e-5)
     runs.check(f"{transfer}: L/L0 - 1 - e (J - 1)/(J + e)", L - 1 - share * (J - 1) / (J + share), 5e-5)
     if transfer == "APIC":
-        total = s["total angular momentum_z"]
+        total = s["total angular momentum z"]
         runs.check("APIC: total angular momentum", max(abs(value / total[0] - 1) for value in total), 1e-10)
     check_failure(runs, "disk.prm", f"{transfer}_uncorrected", 1, *coarse, f"Transfer/Type = {transfer}")
 

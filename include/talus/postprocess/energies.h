@@ -7,7 +7,7 @@
 
 namespace Talus
 {
-  /** Sums over all particles of all ranks. */
+  /** Sums over all particles of all ranks, their greatest speed, and how far they reach. */
   template <int dim>
   struct Totals
   {
@@ -19,7 +19,9 @@ namespace Talus
     double                 volume         = 0; // [volume]
     double                 kinetic_energy = 0; // sum m v . v / 2 [energy]
     double                 strain_energy  = 0; // sum V w(sigma) [energy]
-    double                 plastic_work   = 0; // what plastic flow has taken, in no column of its own [energy]
+    double                 plastic_work   = 0; // what plastic flow has taken [energy]
+    double                 greatest_speed = 0; // [length/time]
+    dealii::Tensor<1, dim> least, greatest;    // position along each axis [length]
     dealii::Tensor<1, dim> momentum;           // sum m v [mass length/time]
     Rotation               angular_momentum;   // sum m x cross v, about the origin [mass length^2/time]
 

@@ -15,9 +15,9 @@ namespace Talus
   /**
    * Writes what a run leaves behind for ParaView: particles_NNNNN.vtu and
    * grid_NNNNN.vtu, one file on any number of ranks, and particles.pvd, grid.pvd
-   * that make them time series; on request particles_NNNNN.csv. Every file is
-   * complete at any time. Writing reads the working set and changes nothing in it.
-   * Throws RunError when a file cannot be written. Test: tests/postprocess.
+   * that make them time series; on request particles_NNNNN.csv, and particles_NNNNN.h5 with particles.xdmf. Every file
+   * is complete at any time. Writing reads the working set and changes nothing in it. Throws RunError when a file
+   * cannot be written. Test: tests/postprocess.
    */
   template <int dim>
   class Output : public dealii::ParameterAcceptor
@@ -82,9 +82,8 @@ namespace Talus
     const std::string &directory() const { return path; }
 
   private:
-    void write_vtu(const std::string &piece, const std::string &name, const dealii::DataOutBase::VtkFlags &flags) const;
-    void write_series(const std::string &name) const;
-    void find_next();
+    void        write_series(const std::string &name) const;
+    void        find_next();
     std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;
 
     std::string              path                = "output";
@@ -101,6 +100,7 @@ namespace Talus
     MPI_Comm                        communicator = MPI_COMM_NULL;
     std::vector<ParticleField<dim>> fields;
     std::vector<double>             times;         // of all outputs so far
+    std::vector<double>             numbers;       // of particles in their HDF5 files; -1: there is none
     unsigned int                    last_step = 0; // of the last of them
     double                          next      = std::numeric_limits<double>::infinity();
   };

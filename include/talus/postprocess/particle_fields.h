@@ -24,7 +24,7 @@ namespace Talus
   };
 
   /**
-   * All quantities that a run can write: every field of `particles` and, derived, body, material,
+   * All quantities that a run can write: every field of `particles` and, derived, body, material, rank,
    * displacement, von Mises stress, pressure, density, volume ratio, deviatoric
    * strain, vorticity and kinetic energy density. The result refers to fields by number, not to `particles`.
    */

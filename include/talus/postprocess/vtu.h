@@ -4,8 +4,12 @@
 
 #include <mpi.h>
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+struct libdeflate_compressor;
 
 namespace Talus
 {
@@ -20,11 +24,48 @@ namespace Talus
                                  dealii::DataComponentInterpretation::DataComponentInterpretation>> &ranges,
     const dealii::DataOutBase::VtkFlags                                                             &flags);
 
-  /** Numbers as they stand in a DataArray: head and one block, compressed by zlib, in base64. */
-  template <class Number>
-  std::string vtu_numbers(const std::vector<Number> &numbers);
+  /** Numbers as they stand in a DataArray, compressed as they come: a head, and zlib's blocks, in base64. */
+  class VtuArray
+  {
+  public:
+    VtuArray();
 
-  /** Writes the parts of all ranks, one after the other, into a file. False on all ranks where that fails. Collective.
+    template <class Number>
+    void add(const Number *numbers, const std::size_t n)
+    {
+      add_bytes(numbers, n * sizeof(Number));
+    }
+
+    template <class Number>
+    void add(const Number number)
+    {
+      add_bytes(&number, sizeof(Number));
+    }
+
+    /** Nothing more is added then. */
+    std::string text();
+
+  private:
+    struct Deleter
+    {
+      void operator()(libdeflate_compressor *compressor) const;
+    };
+
+    void add_bytes(const void *bytes, std::size_t n);
+    void compress();
+
+    static constexpr std::size_t                    block_size = 1u << 18; // [byte]
+    std::unique_ptr<libdeflate_compressor, Deleter> compressor;
+    std::vector<unsigned char>                      block, compressed;
+    std::vector<std::uint32_t>                      sizes; // of compressed blocks
+    std::uint32_t                                   last_size = 0;
+  };
+
+  /** Appends to a text in parts, none of which becomes so long that its growth would cost memory. */
+  void append(std::string text, std::vector<std::string> &parts);
+
+  /**
+   * Writes the texts of all ranks, one after the other, into a file. False on all ranks where that fails. Collective.
    */
-  bool write_in_parallel(const std::string &path, const std::string &part, MPI_Comm communicator);
+  bool write_in_parallel(const std::string &path, const std::vector<std::string> &parts, MPI_Comm communicator);
 } // namespace Talus
