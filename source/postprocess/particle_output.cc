@@ -90,10 +90,9 @@ namespace Talus
                       }),
            parts);
     append("  </Points>\n  <Cells>\n", parts);
-    constexpr std::uint8_t vertex = 1;
     append(scalar_text("Int32", "connectivity", n, [](const unsigned int p) { return std::int32_t(p); }), parts);
     append(scalar_text("Int32", "offsets", n, [](const unsigned int p) { return std::int32_t(p + 1); }), parts);
-    append(scalar_text("UInt8", "types", n, [](unsigned int) { return vertex; }), parts);
+    append(scalar_text("UInt8", "types", n, [](unsigned int) { return std::uint8_t{1}; }), parts);
     append("  </Cells>\n  <PointData Scalars=\"scalars\">\n", parts);
     append(scalar_text("Float64", "id", n, [&](const unsigned int p) { return double(particles.id[p]); }), parts);
     append(scalar_text("Float32", "body", n, [&](const unsigned int p) { return float(particles.body[p]); }), parts);

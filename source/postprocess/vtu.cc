@@ -45,7 +45,7 @@ namespace Talus
     libdeflate_free_compressor(compressor);
   }
 
-  VtuArray::VtuArray() : compressor(libdeflate_alloc_compressor(1)) { AssertThrow(compressor, ExcOutOfMemory()); }
+  VtuArray::VtuArray() : compressor(libdeflate_alloc_compressor(1)) { AssertThrow(compressor, ExcInternalError()); }
 
   void VtuArray::add_bytes(const void *bytes, std::size_t n)
   {

@@ -134,6 +134,7 @@ WALLS = ("  set Names = floor\n", """\
 PROBES = ("  set Directory = output\n", """\
   set Directory = output
   set CSV = true
+  set HDF5 = true
   set Step interval = 2
   subsection Probes
     set Names = near, along

@@ -100,8 +100,10 @@ void mirrors()
       Mesh<dim>       mirror = half;
       mirror.mirror(walls(half, n));
       double       error = 0, signs = 0;
-      unsigned int n_wrong = 0;
-      const auto   compare = [&](const Stencil<dim> &expected, const Stencil<dim> &list, const Coordinates<dim> &x) {
+      unsigned int n_wrong  = 0;
+      const auto  &position = half.position;
+      const double edge     = half.longest_edge;
+      const auto   compare  = [&](const Stencil<dim> &expected, const Stencil<dim> &list, const Coordinates<dim> &x) {
         const auto a = by_place(expected, x), b = by_place(list, x);
         n_wrong += a.size() != b.size();
         for (const auto &[place, values] : a)
@@ -109,11 +111,11 @@ void mirrors()
             ++n_wrong;
           else
             for (unsigned int d = 0; d <= dim; ++d)
-              raise(error, (values[d] - found->second[d]) * (d < dim ? half.longest_edge : 1.));
+              raise(error, (values[d] - found->second[d]) * (d < dim ? edge : 1.));
         // v_0 = x_0 and v_d = x_0 x_1 ... of the other walls obey these signs.
         for (unsigned int k = 0; k < list.size; ++k)
         {
-          const auto   &real = half.position[list.place[k]];
+          const auto   &real = position[list.place[k]];
           const double *sign = NodalFields<dim>::mirror(list.beyond[k]) + NodalFields<dim>::velocity;
           for (unsigned int d = 0; d < dim; ++d)
           {

@@ -27,8 +27,9 @@ namespace
       blocks[k].push_back(p);
     }
     double rest = 0, all = 0;
-    for (const auto &[k, members] : blocks)
+    for (const auto &[place, members] : blocks)
     {
+      const auto &k = place;
       if (members.size() < std::pow(3, dim))
         continue;
       FullMatrix<double> A(dim + 1, dim + 1);

@@ -83,6 +83,7 @@ namespace Talus
 
   private:
     void        write_series(const std::string &name) const;
+    void        write_hdf5_series() const;
     void        find_next();
     std::string file_name(const std::string &name, const unsigned int number, const std::string &ending) const;
 
@@ -94,7 +95,7 @@ namespace Talus
     unsigned int             step_interval       = 0;
     unsigned int             statistics_interval = 1;
     std::vector<std::string> field_names{"velocity", "stress", "von Mises stress", "pressure", "displacement"};
-    bool                     with_grid = true, with_whole_grid = false, with_csv = false, with_final_state = true;
+    bool with_grid = true, with_whole_grid = false, with_csv = false, with_hdf5 = false, with_final_state = true;
 
     DirectoryLock                   lock;
     MPI_Comm                        communicator = MPI_COMM_NULL;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <talus/grid/grid.h>
+#include <talus/grid/lattice.h>
 #include <talus/kernels/lattice/functions.h>
 #include <talus/transfer/lattice/imls_basis.h>
 
