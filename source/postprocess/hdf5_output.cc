@@ -26,8 +26,8 @@ namespace Talus
       std::function<void(const WorkingSet<dim> &, const unsigned int p, float *)> row;
     };
 
-    /** Places of a symmetric tensor's components in XDMF, of those in ParaView's order. */
-    constexpr std::array<unsigned int, 6> place_in_xdmf = {{0, 3, 5, 1, 4, 2}};
+    /** Where the six components of a symmetric tensor in ParaView's order stand among the nine of its rows. */
+    constexpr std::array<unsigned int, 9> symmetric = {{0, 3, 5, 3, 1, 4, 5, 4, 2}};
 
     template <int dim>
     std::vector<RowsOfNumbers<dim>> rows_of(const std::vector<ParticleField<dim>> &fields)
@@ -39,18 +39,22 @@ namespace Talus
         {"material", "1", 1, [](const Set &set, const unsigned int p, float *row) { *row = set.material_of(p); }});
       for (const auto &field : fields)
       {
-        ArrayLayout        layout = layout_of(field);
-        const unsigned int n = field.components.size(), width = layout.others.size();
-        if (width == 6)
-          for (auto &place : layout.place)
-            place = place_in_xdmf[place];
-        const auto row = [field, layout, n](const Set &set, const unsigned int p, float *row) {
+        const ArrayLayout  layout = layout_of(field);
+        const unsigned int n = field.components.size(), n_given = layout.others.size(),
+                           width = n_given == 6 ? 9 : n_given;
+        const auto row           = [field, layout, n, n_given](const Set &set, const unsigned int p, float *to) {
           std::array<double, 32> values;
+          std::array<float, 32>  numbers;
           AssertThrow(n <= values.size(), ExcInternalError());
           field.evaluate(set, p, values.data());
-          std::copy(layout.others.begin(), layout.others.end(), row);
+          std::copy(layout.others.begin(), layout.others.end(), numbers.begin());
           for (unsigned int c = 0; c < n; ++c)
-            row[layout.place[c]] = static_cast<float>(values[c]);
+            numbers[layout.place[c]] = static_cast<float>(values[c]);
+          if (n_given == 6)
+            for (unsigned int c = 0; c < 9; ++c)
+              to[c] = numbers[symmetric[c]];
+          else
+            std::copy_n(numbers.begin(), n_given == 0 ? n : n_given, to);
         };
         if (width > 0)
           all.push_back({array_name(field), field.unit, width, row});
@@ -165,10 +169,7 @@ namespace Talus
           << "</Attribute>\n";
       for (const auto &set : all)
       {
-        const std::string type = set.width == 1 ? "Scalar" :
-                                 set.width == 3 ? "Vector" :
-                                 set.width == 6 ? "Tensor6" :
-                                                  "Tensor";
+        const std::string type = set.width == 1 ? "Scalar" : set.width == 3 ? "Vector" : "Tensor";
         out << "<Attribute Name=\"" << set.name << "\" AttributeType=\"" << type << "\" Center=\"Node\">"
             << item(set.name, set.width, of_float) << "</Attribute>\n";
       }

@@ -96,10 +96,10 @@ def case_sweep(runs):
 
 
 def case_hdf5(runs):
-    """The HDF5 files have what the tables have, tensors in the order of XDMF; the list names what lies in them."""
+    """The HDF5 files have what the tables have, tensors row by row; the list names what lies in them."""
     import h5py
     import numpy as np
-    components = {"velocity": "x y z", "velocity_gradient": "xx xy xz yx yy yz zx zy zz", "stress": "xx xy xz yy yz zz",
+    components = {"velocity": "x y z", "velocity_gradient": "xx xy xz yx yy yz zx zy zz", "stress": "xx xy xz xy yy yz xz yz zz",
                   "affine_moment": "xx xy xz yx yy yz zx zy zz"}
     for prm, dim in ((PRM, 2), (os.path.join(ROOT, "tests/compare/balls_3d.prm"), 3)):
         directory = runs.run(prm, f"hdf5 {dim}", "Run/Number of steps = 4", "Output/Step interval = 2", "Output/HDF5 = true", "Output/CSV = true",

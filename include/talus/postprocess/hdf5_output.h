@@ -11,8 +11,9 @@ namespace Talus
   /**
    * Writes the particles of all ranks into an HDF5 file, one rank after the other: `points` (n x 3) and `id` as
    * doubles, `body`, `material` and the fields in single precision, a row for each particle; `vertices` counts them. A
-   * vector has three columns, a symmetric tensor the six of XDMF (xx, xy, xz, yy, yz, zz), any other nine; others are a
-   * data set for each component. Throws RunError on all ranks. Collective. Test: tests/inputs/outputs.py (hdf5).
+   * vector has three columns, a tensor the nine of its rows, symmetric ones too: readers of XDMF do not agree on the
+   * order of six. Others are a data set for each component. Throws RunError on all ranks. Collective. Test:
+   * tests/inputs/outputs.py (hdf5).
    */
   template <int dim>
   void write_particle_hdf5(const std::string &path, const WorkingSet<dim> &particles,
