@@ -36,24 +36,24 @@ namespace Talus
       return {time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed};
     }
 
-    /** Rank after rank: the head, what `append_to` appends on each, the foot. */
-    template <class AppendTo>
-    void write_vtu_file(const AppendTo &append_to, const std::string &final_name, const DataOutBase::VtkFlags &flags,
+    /** Rank after rank: the head, what `add_to` adds on each, the foot. */
+    template <class AddTo>
+    void write_vtu_file(const AddTo &add_to, const std::string &final_name, const DataOutBase::VtkFlags &flags,
                         MPI_Comm communicator)
     {
-      const std::string        temporary = final_name + ".tmp";
-      const RunError           failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
-      const unsigned int       my_rank = Utilities::MPI::this_mpi_process(communicator);
-      std::ostringstream       head, foot;
-      std::vector<std::string> parts;
+      const std::string  temporary = final_name + ".tmp";
+      const RunError     failure("Cannot write '" + final_name + "'. Is the disk full, or the directory gone?");
+      const unsigned int my_rank = Utilities::MPI::this_mpi_process(communicator);
+      std::ostringstream head, foot;
+      VtuText            text;
       if (my_rank == 0)
         DataOutBase::write_vtu_header(head, flags);
-      append(head.str(), parts);
-      append_to(parts);
+      text.add(head.str());
+      add_to(text);
       if (my_rank + 1 == Utilities::MPI::n_mpi_processes(communicator))
         DataOutBase::write_vtu_footer(foot);
-      append(foot.str(), parts);
-      AssertThrow(write_in_parallel(temporary, parts, communicator), failure);
+      text.add(foot.str());
+      AssertThrow(write_in_parallel(temporary, text, communicator), failure);
       run_on_root(
         [&] {
           const bool is_good = is_complete_vtu(temporary);
@@ -69,8 +69,7 @@ namespace Talus
     void write_particles(const WorkingSet<dim> &particles, const std::vector<ParticleField<dim>> &fields,
                          const std::string &name, const DataOutBase::VtkFlags &flags, MPI_Comm communicator)
     {
-      write_vtu_file([&](std::vector<std::string> &parts) { append_piece(particles, fields, parts); }, name, flags,
-                     communicator);
+      write_vtu_file([&](VtuText &text) { add_piece(particles, fields, text); }, name, flags, communicator);
     }
 
     template <int dim>
@@ -79,10 +78,9 @@ namespace Talus
     {
       flags.physical_units = {{"mass", "mass"}, {"velocity", "length/time"}};
       write_vtu_file(
-        [&](std::vector<std::string> &parts) {
+        [&](VtuText &text) {
           GridOutput<dim> data(grid, has_all_cells);
-          append(vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags),
-                 parts);
+          text.add(vtu_piece(data.get_patches(), data.get_dataset_names(), data.get_nonscalar_data_ranges(), flags));
         },
         name, flags, communicator);
     }

@@ -6,8 +6,10 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <sstream>
 
 #include <libdeflate.h>
@@ -18,26 +20,54 @@ namespace Talus
 
   namespace
   {
-    void append_base64(const unsigned char *bytes, const std::size_t n, std::string &text)
+    /** Bytes as text: four digits for three bytes, however the bytes come. */
+    class Base64
     {
-      constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-      std::size_t    i        = 0;
-      std::size_t    to       = text.size();
-      text.resize(to + 4 * ((n + 2) / 3), '=');
-      for (; i + 2 < n; i += 3)
+    public:
+      void add(const std::string &bytes, std::string &text)
       {
-        const unsigned int three = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
-        for (int shift = 18; shift >= 0; shift -= 6)
-          text[to++] = digits[three >> shift & 63];
+        std::size_t i = 0, to = text.size();
+        text.resize(to + 4 * ((n_kept + bytes.size()) / 3));
+        for (; n_kept > 0 && n_kept < 3 && i < bytes.size(); ++i)
+          kept[n_kept++] = bytes[i];
+        if (n_kept == 3)
+        {
+          encode(kept.data(), &text[to]);
+          to += 4;
+          n_kept = 0;
+        }
+        for (; n_kept == 0 && i + 2 < bytes.size(); i += 3, to += 4)
+          encode(reinterpret_cast<const unsigned char *>(&bytes[i]), &text[to]);
+        for (; i < bytes.size(); ++i)
+          kept[n_kept++] = bytes[i];
       }
-      if (i == n)
-        return;
-      const unsigned int rest = bytes[i] << 16 | (i + 1 < n ? bytes[i + 1] << 8 : 0);
-      text[to++]              = digits[rest >> 18 & 63];
-      text[to++]              = digits[rest >> 12 & 63];
-      if (i + 1 < n)
-        text[to] = digits[rest >> 6 & 63];
-    }
+
+      void finish(std::string &text)
+      {
+        if (n_kept == 0)
+          return;
+        std::fill(kept.begin() + n_kept, kept.end(), 0);
+        char four[4];
+        encode(kept.data(), four);
+        std::fill(four + n_kept + 1, four + 4, '=');
+        text.append(four, 4);
+        n_kept = 0;
+      }
+
+      static std::uint64_t length(const std::uint64_t n_bytes) { return 4 * ((n_bytes + 2) / 3); }
+
+    private:
+      static void encode(const unsigned char *bytes, char *digits)
+      {
+        constexpr char all[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+        const unsigned three = bytes[0] << 16 | bytes[1] << 8 | bytes[2];
+        for (unsigned int i = 0; i < 4; ++i)
+          digits[i] = all[three >> (18 - 6 * i) & 63];
+      }
+
+      std::array<unsigned char, 3> kept{};
+      unsigned int                 n_kept = 0;
+    };
   } // namespace
 
   void VtuArray::Deleter::operator()(libdeflate_compressor *compressor) const
@@ -45,50 +75,122 @@ namespace Talus
     libdeflate_free_compressor(compressor);
   }
 
-  VtuArray::VtuArray() : compressor(libdeflate_alloc_compressor(1)) { AssertThrow(compressor, ExcInternalError()); }
+  VtuArray::VtuArray() : compressor(libdeflate_alloc_compressor(1)), block(block_size)
+  {
+    AssertThrow(compressor, ExcInternalError());
+  }
 
   void VtuArray::add_bytes(const void *bytes, std::size_t n)
   {
-    const auto *from = static_cast<const unsigned char *>(bytes);
+    const auto *from = static_cast<const char *>(bytes);
     while (n > 0)
     {
-      const std::size_t part = std::min(n, block_size - block.size());
-      block.insert(block.end(), from, from + part);
+      const std::size_t part = std::min(n, block_size - n_in_block);
+      std::memcpy(&block[n_in_block], from, part);
+      n_in_block += part;
       from += part;
       n -= part;
-      if (block.size() == block_size)
+      if (n_in_block == block_size)
         compress();
     }
   }
 
   void VtuArray::compress()
   {
-    const std::size_t begin = compressed.size();
-    compressed.resize(begin + libdeflate_zlib_compress_bound(compressor.get(), block.size()));
-    const std::size_t n = libdeflate_zlib_compress(compressor.get(), block.data(), block.size(), &compressed[begin],
-                                                   compressed.size() - begin);
+    if (n_in_block == 0)
+      return;
+    compressed.resize(libdeflate_zlib_compress_bound(compressor.get(), block_size));
+    const std::size_t n =
+      libdeflate_zlib_compress(compressor.get(), block.data(), n_in_block, compressed.data(), compressed.size());
     AssertThrow(n > 0, ExcInternalError());
-    compressed.resize(begin + n);
-    sizes.push_back(static_cast<std::uint32_t>(n));
-    last_size = static_cast<std::uint32_t>(block.size());
-    block.clear();
+    blocks.emplace_back(compressed.data(), n);
+    last_size  = n_in_block;
+    n_in_block = 0;
   }
 
-  std::string VtuArray::text()
+  void VtuArray::finish()
   {
-    if (!block.empty())
-      compress();
-    if (sizes.empty())
-      return "";
-    // Number of blocks, size of all but the last, of the last, compressed sizes; the blocks.
-    const auto                 n_blocks = static_cast<std::uint32_t>(sizes.size());
-    std::vector<std::uint32_t> head{n_blocks, n_blocks == 1 ? last_size : static_cast<std::uint32_t>(block_size),
-                                    last_size};
-    head.insert(head.end(), sizes.begin(), sizes.end());
+    compress();
+    compressor.reset();
+    block      = {};
+    compressed = {};
+  }
+
+  std::string VtuArray::head() const
+  {
+    // Number of blocks, size of all but the last, of the last, compressed sizes.
+    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(blocks.size()),
+                                     static_cast<std::uint32_t>(blocks.size() == 1 ? last_size : block_size),
+                                     static_cast<std::uint32_t>(last_size)};
+    for (const auto &bytes : blocks)
+      words.push_back(static_cast<std::uint32_t>(bytes.size()));
+    return {reinterpret_cast<const char *>(words.data()), sizeof(words[0]) * words.size()};
+  }
+
+  std::uint64_t VtuArray::length() const
+  {
+    std::uint64_t n_bytes = 0;
+    for (const auto &bytes : blocks)
+      n_bytes += bytes.size();
+    return blocks.empty() ? 0 : Base64::length(head().size()) + Base64::length(n_bytes) + 1;
+  }
+
+  void VtuArray::write(const std::function<void(const std::string &)> &take) const
+  {
+    if (blocks.empty())
+      return;
     std::string text;
-    append_base64(reinterpret_cast<const unsigned char *>(head.data()), sizeof(head[0]) * head.size(), text);
-    append_base64(compressed.data(), compressed.size(), text);
-    return text + '\n';
+    Base64      base64;
+    base64.add(head(), text);
+    base64.finish(text);
+    for (const auto &bytes : blocks)
+    {
+      base64.add(bytes, text);
+      take(text);
+      text.clear();
+    }
+    base64.finish(text);
+    take(text + '\n');
+  }
+
+  void VtuText::add(const std::string &text)
+  {
+    if (parts.empty() || parts.back().second.n_blocks() > 0)
+      parts.emplace_back();
+    parts.back().first += text;
+  }
+
+  void VtuText::add(VtuArray array)
+  {
+    array.finish();
+    if (parts.empty())
+      parts.emplace_back();
+    if (array.n_blocks() > 0)
+      parts.back().second = std::move(array);
+  }
+
+  std::uint64_t VtuText::length() const
+  {
+    std::uint64_t n = 0;
+    for (const auto &[text, array] : parts)
+      n += text.size() + array.length();
+    return n;
+  }
+
+  void VtuText::write(const std::function<void(const std::string &)> &take) const
+  {
+    for (const auto &[text, array] : parts)
+    {
+      take(text);
+      array.write(take);
+    }
+  }
+
+  std::string VtuText::text() const
+  {
+    std::string all;
+    write([&](const std::string &text) { all += text; });
+    return all;
   }
 
   template <int dim, int spacedim>
@@ -102,6 +204,7 @@ namespace Talus
     DataOutBase::write_vtu_main(patches, names, ranges, flags, out);
     std::string text = out.str();
 
+    VtuText  text_of_places;
     VtuArray places;
     for (const auto &patch : patches)
     {
@@ -110,6 +213,7 @@ namespace Talus
         for (unsigned int d = 0; d < 3; ++d)
           places.add(d < spacedim ? patch.vertices[v][d] : 0.);
     }
+    text_of_places.add(std::move(places));
     // The first array after the points' tag is theirs, in single precision; a rank without patches has none.
     const std::string single = "Float32";
     if (const auto tag = text.find("<Points>"); tag != std::string::npos)
@@ -117,60 +221,54 @@ namespace Talus
       const auto type = text.find(single, tag);
       text.replace(type, single.size(), "Float64");
       const auto body = text.find(">\n", type) + 2;
-      text.replace(body, text.find("</DataArray>", body) - body, places.text());
+      text.replace(body, text.find("</DataArray>", body) - body, text_of_places.text());
     }
     return text;
   }
 
-  void append(std::string text, std::vector<std::string> &parts)
+  bool write_in_parallel(const std::string &path, const VtuText &text, MPI_Comm communicator)
   {
-    // A string that grows copies what it holds.
-    constexpr std::size_t limit = 1u << 24;
-    if (parts.empty() || parts.back().size() + text.size() > limit)
-      parts.push_back(std::move(text));
-    else
-      parts.back() += text;
-  }
-
-  bool write_in_parallel(const std::string &path, const std::vector<std::string> &parts, MPI_Comm communicator)
-  {
-    const auto all = [&](const int status) {
-      return Utilities::MPI::min(status == MPI_SUCCESS ? 1 : 0, communicator) == 1;
-    };
+    const auto        all = [&](const bool is_good) { return Utilities::MPI::min(is_good ? 1 : 0, communicator) == 1; };
     const QuietErrors quiet;
     // A file that is there already would keep what lies beyond the new end.
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       std::remove(path.c_str());
     MPI_Barrier(communicator);
     MPI_File file;
-    if (!all(MPI_File_open(communicator, path.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file)))
+    if (!all(MPI_File_open(communicator, path.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file) ==
+             MPI_SUCCESS))
       return false;
 
-    // MPI counts in ints.
-    constexpr std::size_t                             portion = 1u << 30;
-    std::vector<std::pair<const char *, std::size_t>> portions;
-    std::uint64_t                                     size = 0, offset = 0;
-    for (const auto &part : parts)
-    {
-      for (std::size_t begin = 0; begin < part.size(); begin += portion)
-        portions.emplace_back(part.data() + begin, std::min(portion, part.size() - begin));
-      size += part.size();
-    }
-    MPI_Exscan(&size, &offset, 1, MPI_UINT64_T, MPI_SUM, communicator);
+    const std::uint64_t length = text.length();
+    std::uint64_t       offset = 0;
+    MPI_Exscan(&length, &offset, 1, MPI_UINT64_T, MPI_SUM, communicator);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       offset = 0;
-    portions.resize(Utilities::MPI::max(portions.size(), communicator), {nullptr, 0});
-    bool is_good = true;
-    for (const auto &[from, n] : portions)
-    {
+    const std::uint64_t   end     = offset + length;
+    constexpr std::size_t portion = 1u << 22; // few calls, little memory; MPI counts in ints
+    bool                  is_good = true;
+    std::string           kept;
+    const auto            write = [&]() {
       MPI_Status status;
       int        n_written = 0;
-      const int  result    = MPI_File_write_at_all(file, offset, from, n, MPI_CHAR, &status);
+      const int  n         = static_cast<int>(kept.size());
+      const int  result    = MPI_File_write_at(file, offset, kept.data(), n, MPI_CHAR, &status);
       MPI_Get_count(&status, MPI_CHAR, &n_written);
-      is_good = is_good && all(result == MPI_SUCCESS && n_written == static_cast<int>(n) ? MPI_SUCCESS : MPI_ERR_IO);
+      is_good = is_good && result == MPI_SUCCESS && n_written == n;
       offset += n;
-    }
-    is_good = all(MPI_File_close(&file)) && is_good;
+      kept.clear();
+    };
+    text.write([&](const std::string &part) {
+      for (std::size_t begin = 0; begin < part.size(); begin += portion)
+      {
+        kept.append(part, begin, portion);
+        if (kept.size() >= portion)
+          write();
+      }
+    });
+    write();
+    is_good = all(is_good && offset == end);
+    is_good = all(MPI_File_close(&file) == MPI_SUCCESS) && is_good;
     if (!is_good && Utilities::MPI::this_mpi_process(communicator) == 0)
       std::remove(path.c_str());
     return is_good;

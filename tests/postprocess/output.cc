@@ -238,7 +238,10 @@ void test_vtu_arrays()
     VtuArray array;
     for (std::size_t i = 0; i < n; ++i)
       array.add(std::sin(1. * i));
-    const std::string text = array.text(), name = std::to_string(n) + " numbers";
+    VtuText file;
+    file.add(std::move(array));
+    const std::string text = file.text(), name = std::to_string(n) + " numbers";
+    check_true(name + ": length", text.size() == file.length());
     if (n == 0)
     {
       check_true(name, text.empty());
@@ -262,9 +265,9 @@ void test_vtu()
   auto &particles = run.particles;
   for (unsigned int p = 0; p < particles.size(); ++p)
     particles.component(particles.velocity, 1)[p] = 2. + particles.id[p];
-  std::vector<std::string> parts;
-  append_piece(particles, select_particle_fields(particles, {"velocity", "deformation gradient"}, "", ""), parts);
-  const std::string piece  = parts.at(0);
+  VtuText text;
+  add_piece(particles, select_particle_fields(particles, {"velocity", "deformation gradient"}, "", ""), text);
+  const std::string piece  = text.text();
   const auto        places = numbers_of<double>(piece, "<Points>"), ids = numbers_of<double>(piece, "Name=\"id\"");
   const auto        velocities = numbers_of<float>(piece, "Name=\"velocity\""),
              F                 = numbers_of<float>(piece, "Name=\"deformation_gradient\"");

@@ -5,8 +5,10 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct libdeflate_compressor;
@@ -24,7 +26,7 @@ namespace Talus
                                  dealii::DataComponentInterpretation::DataComponentInterpretation>> &ranges,
     const dealii::DataOutBase::VtkFlags                                                             &flags);
 
-  /** Numbers as they stand in a DataArray, compressed as they come: a head, and zlib's blocks, in base64. */
+  /** Numbers of a DataArray, compressed as they come; as text a head and zlib's blocks, both in base64. */
   class VtuArray
   {
   public:
@@ -42,8 +44,12 @@ namespace Talus
       add_bytes(&number, sizeof(Number));
     }
 
-    /** Nothing more is added then. */
-    std::string text();
+    /** Nothing more is added: what is of no use any more is freed. */
+    void finish();
+
+    std::size_t   n_blocks() const { return blocks.size(); }
+    std::uint64_t length() const; // of the text
+    void          write(const std::function<void(const std::string &)> &take) const;
 
   private:
     struct Deleter
@@ -51,21 +57,35 @@ namespace Talus
       void operator()(libdeflate_compressor *compressor) const;
     };
 
-    void add_bytes(const void *bytes, std::size_t n);
-    void compress();
+    void        add_bytes(const void *bytes, std::size_t n);
+    void        compress();
+    std::string head() const;
 
     static constexpr std::size_t                    block_size = 1u << 18; // [byte]
     std::unique_ptr<libdeflate_compressor, Deleter> compressor;
-    std::vector<unsigned char>                      block, compressed;
-    std::vector<std::uint32_t>                      sizes; // of compressed blocks
-    std::uint32_t                                   last_size = 0;
+    std::vector<char>                               block, compressed;
+    std::vector<std::string>                        blocks;
+    std::size_t                                     n_in_block = 0, last_size = 0;
   };
 
-  /** Appends to a text in parts, none of which becomes so long that its growth would cost memory. */
-  void append(std::string text, std::vector<std::string> &parts);
+  /** The text of a file: arrays stay compressed until it is written. */
+  class VtuText
+  {
+  public:
+    void          add(const std::string &text);
+    void          add(VtuArray array);
+    std::uint64_t length() const;
+
+    /** Hands over all of it, part after part. */
+    void        write(const std::function<void(const std::string &)> &take) const;
+    std::string text() const;
+
+  private:
+    std::vector<std::pair<std::string, VtuArray>> parts;
+  };
 
   /**
    * Writes the texts of all ranks, one after the other, into a file. False on all ranks where that fails. Collective.
    */
-  bool write_in_parallel(const std::string &path, const std::vector<std::string> &parts, MPI_Comm communicator);
+  bool write_in_parallel(const std::string &path, const VtuText &text, MPI_Comm communicator);
 } // namespace Talus
