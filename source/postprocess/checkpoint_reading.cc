@@ -246,12 +246,14 @@ namespace Talus
     }
     particles.resize(end - begin);
     std::vector<std::string>   read;
-    std::vector<std::uint64_t> sums;
+    std::vector<std::uint64_t> sums, n_infinite;
     const auto                 add_up = [&](const std::string &name, const double *values) {
       Checksum sum;
       sum.add(values, end - begin, begin);
       read.push_back("particles/" + name);
       sums.push_back(sum.value());
+      n_infinite.push_back(
+                        std::count_if(values, values + (end - begin), [](const double x) { return !std::isfinite(x); }));
     };
     const auto whole_numbers = [&](const std::string &name, auto &to) {
       const auto values = numbers("particles/" + name, begin, end);
@@ -269,12 +271,17 @@ namespace Talus
       add_up(name, particles.column(column));
     }
     Utilities::MPI::sum(sums, communicator, sums);
+    Utilities::MPI::sum(n_infinite, communicator, n_infinite);
     for (unsigned int k = 0; k < read.size(); ++k)
     {
       const Hid set(H5Dopen2(file->file, read[k].c_str(), H5P_DEFAULT), H5Dclose, "data set '" + read[k] + "'");
       AssertThrow(text_attribute(set, "checksum") == hexadecimal(sums[k]),
                   InputError("the checkpoint '" + path + "' is wrong: the checksum of '" + read[k] +
                              "' is not that of its numbers. Remove the file to go on from the one before."));
+      AssertThrow(n_infinite[k] == 0,
+                  InputError("the checkpoint '" + path + "' is wrong: '" + read[k] + "' has " +
+                             std::to_string(n_infinite[k]) +
+                             " numbers that are not finite. Remove the file to go on from the one before."));
     }
   }
 

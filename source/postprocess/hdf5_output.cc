@@ -49,7 +49,7 @@ namespace Talus
           field.evaluate(set, p, values.data());
           std::copy(layout.others.begin(), layout.others.end(), numbers.begin());
           for (unsigned int c = 0; c < n; ++c)
-            numbers[layout.place[c]] = static_cast<float>(values[c]);
+            numbers[layout.place[c]] = single(values[c]);
           if (n_given == 6)
             for (unsigned int c = 0; c < 9; ++c)
               to[c] = numbers[symmetric[c]];

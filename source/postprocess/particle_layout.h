@@ -2,6 +2,8 @@
 
 #include <talus/postprocess/particle_fields.h>
 
+#include <limits>
+
 namespace Talus
 {
   /** Where the components of a field stand in an array that ParaView reads, and what its other numbers are. */
@@ -15,6 +17,13 @@ namespace Talus
   /** One number, three of a vector, six of a symmetric tensor in ParaView's order, or nine; none for all others. */
   template <int dim>
   ArrayLayout layout_of(const ParticleField<dim> &field);
+
+  /** In single precision; what lies beyond its range becomes the greatest number that it has, not infinite. */
+  inline float single(const double value)
+  {
+    constexpr double greatest = std::numeric_limits<float>::max();
+    return static_cast<float>(value > greatest ? greatest : value < -greatest ? -greatest : value);
+  }
 
   /** Name of the array: with underscores. */
   template <int dim>

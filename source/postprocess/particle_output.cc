@@ -62,7 +62,7 @@ namespace Talus
             array_head("Float32", field.components[c], {{}, {0.f}, {}}, field.unit), particles.size(),
             [&](VtuArray &array, const unsigned int p) {
               field.evaluate(particles, p, values.data());
-              array.add(static_cast<float>(values[c]));
+              array.add(single(values[c]));
             },
             text);
         return;
@@ -73,7 +73,7 @@ namespace Talus
         [&](VtuArray &array, const unsigned int p) {
           field.evaluate(particles, p, values.data());
           for (unsigned int c = 0; c < values.size(); ++c)
-            numbers[layout.place[c]] = static_cast<float>(values[c]);
+            numbers[layout.place[c]] = single(values[c]);
           array.add(numbers.data(), numbers.size());
         },
         text);

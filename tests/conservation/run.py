@@ -33,8 +33,8 @@ def run(talus, prm, directory, mpirun, settings):
 
 
 def vectors(columns, name):
-    """The vector of the columns name_x, name_y, name_z that exist, for each row."""
-    return list(zip(*(columns[f"{name}_{axis}"] for axis in "xyz" if f"{name}_{axis}" in columns)))
+    """The vector of the columns "name x", "name y", "name z" that exist, for each row."""
+    return list(zip(*(columns[f"{name} {axis}"] for axis in "xyz" if f"{name} {axis}" in columns)))
 
 
 def drift(values):

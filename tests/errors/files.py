@@ -84,6 +84,19 @@ def problems_in_vtu(text):
     return [] if all(math.isfinite(number) for number in numbers) else ["a number that is not finite"]
 
 
+def problems_in_hdf5(path):
+    """Of a file of particles; nothing where no Python package can read it."""
+    try:
+        import h5py
+        import numpy
+    except ModuleNotFoundError:
+        return []
+    with h5py.File(path, "r") as file:
+        sizes = {len(data) for data in file.values()}
+        found = [f"{name}: a number that is not finite" for name, data in file.items() if not numpy.isfinite(data[...]).all()]
+        return found + ([f"data sets of {sorted(sizes)} rows"] if len(sizes) != 1 else [])
+
+
 def problems_in_directory(directory):
     problems = []
     names = sorted(os.listdir(directory))
@@ -92,7 +105,9 @@ def problems_in_directory(directory):
             problems.append(f"{wanted} is missing")
     for name in names:
         if name.endswith(".h5"):
-            continue  # its checksum tells
+            if name.startswith("particles_"):
+                problems += [f"{name}: {problem}" for problem in problems_in_hdf5(os.path.join(directory, name))]
+            continue  # of a checkpoint its checksum tells
         with open(os.path.join(directory, name)) as file:
             text = file.read()
         found = []

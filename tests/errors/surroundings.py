@@ -104,6 +104,16 @@ def change_column(file):
     file["particles/velocity_x"][3] = 7.
 
 
+def no_number(file):
+    data = file["particles/initial_position_x"]
+    values = data[:]
+    values[3] = float("nan")
+    data[...] = values
+    words = struct.unpack(f"<{len(values)}Q", values.tobytes())
+    total = sum(scrambled(word ^ scrambled(place + 1)) for place, word in enumerate(words)) & ((1 << 64) - 1)
+    data.attrs["checksum"] = f"{total:016x}"
+
+
 def other_body(file):
     file.attrs["parameters"] = file.attrs["parameters"].replace("1.75, 0.75", "1.75, 0.5")
 
@@ -217,11 +227,12 @@ CASES = {
                                                                       os.path.join(directory, "points.txt")),
                 "has 2 particles, and the bodies of its run have 3", "changed", changes=[(BOX, POINTS)]),
     ] + ([
-        resumed("checkpoints of another version", inside(set_format), "has the format 99", "reads format 2",
+        resumed("checkpoints of another version", inside(set_format), "has the format 99", r"reads format \d+",
                 "Go on with the version that wrote it"),
         resumed("checkpoints of another problem", inside(other_body), r"has \d+ particles, and the bodies of its run have \d+"),
         resumed("checkpoints without a column", inside(remove_column), "particles/velocity_x", "another version"),
         resumed("checkpoints with a wrong number", inside(change_column), "the checksum of 'particles/velocity_x'", "Remove the file"),
+        resumed("checkpoints without a number", inside(no_number), "'particles/initial_position_x' has 1 numbers that are not finite"),
     ] if h5py else []),
 }
 for case in CASES["checkpoints"]:

@@ -103,7 +103,7 @@ class Cases:
         shutil.rmtree(directory)
         shutil.copytree(before, directory)
         output = os.path.join(directory, "output")
-        path = next(os.path.join(output, file) for file in os.listdir(output) if file.endswith(".h5"))
+        path = next(os.path.join(output, file) for file in os.listdir(output) if file.startswith("checkpoint_"))
         if dice.randrange(4) == 0:
             path = dice.choice([path, os.path.join(output, "statistics.csv")])
             with open(path, "rb") as file:
@@ -143,6 +143,8 @@ def problems_of(status, out, err, directory):
     for name in sorted(os.listdir(output)) if os.path.isdir(output) else []:
         kind = name.rsplit(".", 1)[-1]
         if name.startswith("failure_") or kind not in ("csv", "vtu"):
+            if name.startswith("particles_") and kind == "h5" and status == 0:
+                problems += [f"{name}: {problem}" for problem in files.problems_in_hdf5(os.path.join(output, name))]
             continue
         with open(os.path.join(output, name), errors="replace") as file:
             content = file.read()
