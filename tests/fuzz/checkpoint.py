@@ -75,7 +75,7 @@ def mutate(random, path):
                 file.attrs[attribute] = random.choice(["9.9.9", ""])
             else:
                 old = file.attrs[attribute]
-                file.attrs[attribute] = random.choice([-1, 0, 2, 1e9, float("nan"), old + 1, "text"])
+                file.attrs[attribute] = random.choice([-1, 0, 2, 1e9, float("nan"), old + type(old)(1), "text"])
         elif kind == 6:
             file.attrs["parameters"] = mutate_lines(random, file.attrs["parameters"]).replace("\0", "")
         else:

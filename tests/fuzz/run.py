@@ -26,7 +26,7 @@ STEPS = 3
 SECONDS, GRACE = 10, 300  # of the processor, and by the clock where others use the machine
 LIMIT = ["--set", f"Run/Number of steps = {STEPS}", "--set", "Output/Directory = output"]
 RAW = re.compile(r"std::|basic_string|vector::|stoi|stod|stoul|HDF5-DIAG|An error occurred in|violated condition|Additional info|"
-                 r"[Bb]oost|\bmu::|Exception of|p4est|MPI_|terminate|Assertion|bad_|what\(\)|deal\.II|dealii|Exc[A-Z]|"
+                 r"[Bb]oost|\bmu::|Exception of|p4est|MPI_|terminate called|Assertion|bad_|what\(\)|deal\.II|dealii|Exc[A-Z]|"
                  r"[Ss]egmentation|ERROR: |SUMMARY: |runtime error|libtalus|\.cc:|\.h:")
 
 
