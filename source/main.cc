@@ -118,6 +118,8 @@ namespace
     const unsigned int first = resume ? resume->head.stage : 0, n = std::max(stages.size(), 1u);
     AssertThrow(first < n, InputError("the checkpoint is of stage " + std::to_string(first + 1) + ", and the run has " +
                                       std::to_string(n) + ". It was changed."));
+    AssertThrow(!resume || !resume->head.begins_stage || first > 0,
+                InputError("the checkpoint begins a stage, and the run's first one begins without. It was changed."));
     // What is wrong in a later stage is said before the first one runs.
     for (unsigned int stage = first + 1; stage < n; ++stage)
       with_parameters(stages.parameters(stage),

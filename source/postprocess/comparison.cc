@@ -37,6 +37,7 @@ namespace Talus
     ParameterAcceptor(section),
     communicator(communicator), reference(parameters, section, communicator)
   {
+    AssertThrow(!material_names.empty(), EntryError("/Materials", "Names", "give at least one material."));
     std::string selection;
     for (const auto &name : material_names)
       selection += (selection.empty() ? "" : "|") + name;

@@ -33,7 +33,7 @@ namespace Talus
 
     DataOutBase::VtkFlags vtk_flags(const double time, const unsigned int step)
     {
-      return {time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed};
+      return DataOutBase::VtkFlags(time, step, /* print_date_and_time = */ false, DataOutBase::VtkFlags::best_speed);
     }
 
     /** Rank after rank: the head, what `add_to` adds on each, the foot. */

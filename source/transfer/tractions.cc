@@ -35,8 +35,9 @@ namespace Talus
     ParameterAcceptor("/Tractions/" + name), function_text(repeated("0", dim))
   {
     const std::string section = get_section_name();
-    kind                      = parameters.choose_from(section, "Type", "traction", "traction|pressure|force",
-                                                       "Force per initial area, pressure on the deformed one, or force at a point.");
+    AssertThrow(!body_names.empty(), EntryError("/Bodies", "Names", "give at least one body."));
+    kind = parameters.choose_from(section, "Type", "traction", "traction|pressure|force",
+                                  "Force per initial area, pressure on the deformed one, or force at a point.");
     body_name =
       parameters.choose_from(section, "Body", body_names.front(), choice(body_names), "Name of the loaded body.");
     const std::string load = kind == "traction" ? "Traction" : kind == "force" ? "Force" : "Pressure";

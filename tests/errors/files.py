@@ -45,7 +45,7 @@ def arrays_of_vtu(path):
 
 
 def problems_in_csv(text):
-    rows = [row for row in text.splitlines() if not row.startswith("#")]
+    rows = [row for row in text.split("\n") if row and not row.startswith("#")]
     counts = {row.count(",") for row in rows}
     if not text.endswith("\n") or len(counts) > 1:
         return ["incomplete"]

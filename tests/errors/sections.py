@@ -135,6 +135,12 @@ CASES = {
     ],
     "more_bodies": [
         wrong_entry("no body", "set Names = block", "set Names =", "Names", "at least one body"),
+        Case("no body for a load", [("subsection Output\n", "subsection Tractions\n  set Names = load\n  subsection load\n    set Traction = 1; 0\n"
+                                     "  end\nend\nsubsection Output\n"), ("set Names = block", "set Names =")],
+             [r"FILE:LINE: entry 'Names' in section 'Bodies': give at least one body"]),
+        Case("no material for a reference", [("subsection Output\n", "subsection FEM reference\n  set Compare = yes\nend\nsubsection Output\n"),
+                                             ("set Names = block", "set Names ="), ("set Names = rubber", "set Names =")],
+             [r"entry 'Names' in section '(Materials|Bodies)': give at least one"]),
         in_body("unknown shape", "    set Shape = cube", "Shape", "Choices: .*box"),
         in_body("unknown material", "    set Material = steel", "Material", "rubber"),
         in_body("no particles per cell", "    set Particles per cell and direction = 0", "Particles per cell and direction", "1"),

@@ -96,6 +96,10 @@ def set_format(file):
     file.attrs["format"] = 99
 
 
+def begin_stage(file):
+    file.attrs["begins stage"] = 1
+
+
 def remove_column(file):
     del file["particles/velocity_x"]
 
@@ -232,6 +236,7 @@ CASES = {
         resumed("checkpoints of another problem", inside(other_body), r"has \d+ particles, and the bodies of its run have \d+"),
         resumed("checkpoints without a column", inside(remove_column), "particles/velocity_x", "another version"),
         resumed("checkpoints with a wrong number", inside(change_column), "the checksum of 'particles/velocity_x'", "Remove the file"),
+        resumed("checkpoints that begin a stage", inside(begin_stage), "begins a stage, and the run's first one begins without"),
         resumed("checkpoints without a number", inside(no_number), "'particles/initial_position_x' has 1 numbers that are not finite"),
     ] if h5py else []),
 }
